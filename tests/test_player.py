@@ -897,7 +897,7 @@ def test_errors_name_the_wrong_argument_and_what_is_wanted(change, kind, message
 def test_invalid_recordings_are_refused(motions):
     one = record(IRB140, T, motions[1])
     for wrong, message in (
-        (lambda: animate(one, T), "wanted neither with recordings"),
+        (lambda: animate(one, T), "not wanted with recordings"),
         (lambda: animate(one, slider=("x", [1, 2])), r"wanted shape \(2, 2001, 6\)"),
         (lambda: animate(record(IRB140, T[:2], motions[1, :2])), "at least three times"),
         (lambda: animate([one, record(IRB140, 2 * T, motions[1])]), "the same times"),

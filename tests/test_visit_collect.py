@@ -1,5 +1,5 @@
-"""Visit and collect: the document's examples and errata S0, the reference tasks, and laws for every
-answer.
+"""Visit and collect: the document's examples and errata S0, the reference tasks, and properties of
+every answer.
 """
 
 import copy
@@ -171,7 +171,7 @@ class Walk:
 
 
 def walked(task, order, short_way=False):
-    """The times at which the points are done in this order."""
+    """The times at which the points are served in this order."""
     walk, times = Walk(task, short_way), []
     for i in order:
         times.append(walk.to(i).time)
@@ -234,7 +234,7 @@ def test_example_3_visits_both_points():
         np.testing.assert_allclose(got, [float(x) for x in q], rtol=0, atol=5e-15)
 
 
-def test_examples_equal_those_of_the_document():
+def test_examples_match_the_document():
     texts = [json.loads((TASKS / f"example_{i}.json").read_text()) for i in (1, 2, 3)]
     assert all(tuple(sorted(text)) == tuple(sorted(KEYS)) for text in texts)
     assert texts[2] == GOOD and texts[1] == GOOD | {"task": "collect"}
@@ -267,7 +267,7 @@ def test_report_lists_points_times_and_what_is_left():
 
 
 @cases
-def test_answers_equal_the_reference_task(case):
+def test_answers_match_the_reference_task(case):
     task = of_case(case)
     np.testing.assert_allclose(task.q, [case["q0"], *case["qi"]], rtol=0, atol=1e-12)
     legs = travel_time(task.q[:, None], task.q, task.speeds)
@@ -437,9 +437,8 @@ def test_collecting_into_a_container_on_the_axis_keeps_the_speed_limit():
     task = make(
         p0=(0, 0, 6.5), points=[(2, 0, 4), (0, 2, 4), (-2, 0, 4), (0, -2, 4)], T=100, kind="collect"
     )
-    way = travel_time(
-        task.q[0], task.q[1], task.speeds
-    )  # without the turn all points are equally far
+    # without the turn of joint 1 all points are equally far away
+    way = travel_time(task.q[0], task.q[1], task.speeds)
     quarter = np.pi / 2 / 0.2
     assert 4 * 2 * way == pytest.approx(23.36, abs=0.005)
     result = collect(task)
@@ -451,7 +450,7 @@ def test_collecting_into_a_container_on_the_axis_keeps_the_speed_limit():
     )
     t, q = itinerary(task, result)
     assert (abs(np.diff(q, axis=0)) / np.diff(t)[:, None]).max() == pytest.approx(0.2)
-    assert (q[2::2, 0] == q[1::2, 0]).all(), "back at the container joint 1 stays"
+    assert (q[2::2, 0] == q[1::2, 0]).all(), "joint 1 moves on the way to the container"
     # Going from one end of the turn to the other takes less time, so the cheapest next point is not
     # optimal here.
     assert walked(task, (3, 0, 1, 2))[-1] == pytest.approx(2 * way + 3 * (quarter + way))
@@ -462,7 +461,7 @@ def test_collecting_into_a_container_on_the_axis_keeps_the_speed_limit():
     for other in (
         make(kind="collect"),
         make(p0=(0, 0, 6)),
-        make(p0=(0, 0, 6), points=[(2, 3, 2)], kind="collect"),  # one point has one order
+        make(p0=(0, 0, 6), points=[(2, 3, 2)], kind="collect"),  # a single point has only one order
     ):
         assert "axis 1" not in report(other, answer(other))
     two = make(p0=(0, 0, 6), kind="collect")
@@ -628,7 +627,7 @@ def dense(task, start, end, count=801):
 
 
 @pytest.mark.parametrize("l1, l2", [(5, 4), (5, 1), (1, 0.99), (0.3, 0.2), (4, 4), (4, 5), (1, 9)])
-def test_lowest_equals_a_dense_sample(l1, l2):
+def test_lowest_matches_a_dense_sample(l1, l2):
     rng = np.random.default_rng(3)
     task = drawn(rng, 1500, l1=l1, l2=l2)
     start, end = task.q[:-1], task.q[1:]
@@ -640,7 +639,7 @@ def test_lowest_equals_a_dense_sample(l1, l2):
     ends = np.minimum(task.points[:, 2], np.vstack([task.p0, task.points[:-1]])[:, 2])
     assert (got <= ends + 1e-12).all()
     if l1 <= l2:
-        assert (got > -1e-12).all(), "never for l1 <= l2"
+        assert (got > -1e-12).all(), "no dips for l1 <= l2"
     if l1 > 1.2 * l2:
         assert (got < ends - 1e-2 * l1).any() and (got < 0).any()
 
@@ -757,7 +756,7 @@ def test_nothing_served_takes_no_time():
     result = visit(make(T=0))
     assert result == best_visit(make(T=0)) == collect(make(T=0)) == Result((), (), (0, 1))
     assert result.time == 0.0
-    # except for points where the arm already is
+    # only points where the arm already is are served
     at_start = make(T=0, points=[(2, 3, 2), (1, 1, 1), (1, 1, 1)])
     assert visit(at_start).order == collect(at_start).order == best_visit(at_start).order == (1, 2)
 
@@ -784,7 +783,7 @@ def test_ties_go_to_the_lowest_index():
 
 
 def test_extreme_speeds_and_times_cause_no_warning():
-    """Speeds and times at the limits of floats give an answer."""
+    """Extreme values of a float give an answer."""
     never = make(speeds=(5e-324,) * 3, T=1.7e308)
     assert visit(never).order == collect(never).order == best_visit(never).order == ()
     at_once = make(speeds=(1.7e308,) * 3, T=0)
@@ -955,7 +954,7 @@ def test_tasks_with_too_many_points_are_refused():
 
 
 def test_many_faults_are_counted():
-    """The first ten faults of each kind are described, the others counted."""
+    """The first ten faults of each kind are described, and the others are counted."""
     began = time.process_time()
     bad = (
         [[9, 9, 9]] * 40_000
@@ -1032,7 +1031,7 @@ def test_wrong_joint_values_are_detected():
     )
     q = make().q[1]
     assert misfit(5, 4, q, (2, 3, 2)) < 1e-14
-    assert misfit(5, 4, q + [0.5, 0, 0], (2, 3, 2)) > 1.7, "joint 1 counts"
+    assert misfit(5, 4, q + [0.5, 0, 0], (2, 3, 2)) > 1.7, "the angle of joint 1 is not checked"
     rows = spbu_arm(5, 4).ik((2, 3, 2))
     assert misfit(5, 4, rows, (2, 3, 2))[1:].tolist() == [np.inf] * 3, "past the limits"
     assert np.isnan(misfit(5, 4, spbu_arm(5, 4).ik((9, 9, 9)), (9, 9, 9))).all()
@@ -1214,7 +1213,7 @@ def test_allowed_variations_of_a_file_are_read(tmp_path):
     assert visit(task) == visit(make()) and task.kind == "visit" and task.T == 10.0
 
 
-def test_duplicate_keys_are_a_fault(tmp_path):
+def test_duplicate_keys_are_reported_as_faults(tmp_path):
     path = tmp_path / "x.json"
     text = json.dumps(GOOD)
     path.write_text(text[:-1] + ', "T": 20, "q\'": [1, 1, 1], "T": 30}')
@@ -1436,7 +1435,7 @@ def test_results_of_other_tasks_are_refused(given):
     itinerary(make(), Result((1,), (5.0,), (0,)))
 
 
-def test_lowest_of_a_move_equals_that_of_its_reverse():
+def test_lowest_of_a_move_matches_that_of_its_reverse():
     """The lowest point is also not above any sample of the move, whichever way the joints turn."""
     rng = np.random.default_rng(23)
     for l1, l2 in ((5, 4), (3, 1), (2, 2), (1, 3)):

@@ -1,5 +1,5 @@
 """What a player lets its reader watch: the large panel, the joints, named quantities, the opening
-curve, limits that are passed, and the row of `ik`; and how much of a screen all this needs.
+curve, limits that are exceeded, and the row of `ik`; and how much of the screen all this needs.
 """
 
 import numpy as np
@@ -31,12 +31,12 @@ def motions():
 
 @pytest.fixture
 def page(browser):
-    """A page of the width of a JupyterLab output beside its file browser, on a screen of 1366."""
+    """A page as wide as a JupyterLab output next to its file browser, on a screen 1366 px wide."""
     page = browser.new_page(viewport={"width": 914, "height": 647})
     said = []
     page.on("pageerror", lambda error: said.append(str(error)))
     page.on("console", lambda m: said.append(m.text) if m.type in ("error", "warning") else None)
-    # the frames of panels, and what is written on the canvases
+    # record the frames of panels and the text on the canvases
     page.add_init_script("""
         window.frames_ = []; window.written = [];
         const {strokeRect, fillText} = CanvasRenderingContext2D.prototype;
@@ -59,14 +59,14 @@ def opened(page, view, tmp_path, curves=True):
 
 
 def anew(page):
-    """The frames of the panels and the words of one picture."""
+    """The frames of the panels and the words in one new picture."""
     page.evaluate("frames_.length = written.length = 0")
     page.set_viewport_size({"width": 1827 - page.viewport_size["width"], "height": 647})
     ink(page, ".rk-curves")
     return page.evaluate("[frames_, written]")
 
 
-# --- Room -----------------------------------------------------------------------------------------
+# --- Room on the screen ---------------------------------------------------------------------------
 
 
 def two_arms(motions):
@@ -114,7 +114,7 @@ def test_view_fits_on_the_screen_with_a_large_panel(page, motions, tmp_path, vie
 
 
 def test_sentences_do_not_move_the_pictures(page, tmp_path):
-    q = np.stack([HALVES, TURNING])  # the first one passes a limit
+    q = np.stack([HALVES, TURNING])  # the first motion exceeds a limit
     opened(page, animate(IRB140, CLOCK, q, slider=("x", [0, 1])), tmp_path)
     before = page.locator(".rk-scene").bounding_box()
     assert "q3 is past its limit" in page.locator(".rk-says").inner_text()
@@ -125,7 +125,7 @@ def test_sentences_do_not_move_the_pictures(page, tmp_path):
 
 @pytest.mark.parametrize("count", [1, 3, 4, 6])
 def test_panels_share_the_room(page, count):
-    """The large one gets its height wherever there is so much; a small one is never too low."""
+    """The large panel gets its full height if there is room; no small one is too low."""
     for room in (150, 210, 300, 480, 900):
         for large in range(count):
             shown = page.evaluate(
@@ -139,7 +139,7 @@ def test_panels_share_the_room(page, count):
             assert all(h >= 34 for k, h in heights.items() if k != large)
 
 
-# --- What is large, and what is faint -------------------------------------------------------------
+# --- Large panels, faint curves and quantities ----------------------------------------------------
 
 
 def test_reader_chooses_the_large_panel(page, motions, tmp_path):
@@ -155,7 +155,7 @@ def test_reader_chooses_the_large_panel(page, motions, tmp_path):
 
 
 def panels_of(page, player, value, choice=0):
-    """The panels of the page's own motion: for each line its numbers and marks."""
+    """The panels that the page makes for a motion, with their lines and marks."""
     return page.evaluate(
         """([code, data, value, choice]) => {
           const {$motions} = new Function(code + 'return {$motions}')();
@@ -168,7 +168,7 @@ def panels_of(page, player, value, choice=0):
     )
 
 
-def test_other_joints_are_faint_and_show_no_limits(page):
+def test_unwatched_joints_are_faint_and_show_no_limits(page):
     player = animate(IRB140, CLOCK, HALVES, joints=[1, 2])
     for panel in panels_of(page, player, 0):
         assert [line["faint"] for line in panel["lines"]] == [j > 1 for j in range(6)]
@@ -177,7 +177,7 @@ def test_other_joints_are_faint_and_show_no_limits(page):
     assert position["near"] == [[2, 1]]
 
 
-def test_scales_stay_and_the_opening_curve_is_a_ghost(page, motions):
+def test_scales_do_not_change_and_the_opening_curve_is_a_ghost(page, motions):
     player = animate(IRB140, T, motions, **PLAIN)
     first = panels_of(page, player, 0)
     assert all(line["opening"] is None for panel in first for line in panel["lines"])
@@ -200,7 +200,7 @@ def test_ghost_breaks_where_the_opening_motion_breaks(page):
             assert player.data["times"][gap] < 3 <= player.data["times"][gap + 1]
 
 
-def test_quantity_is_a_panel(page, motions, tmp_path):
+def test_quantity_has_its_own_panel(page, motions, tmp_path):
     away = np.linalg.norm(IRB140.fk(motions).translation - VIA.translation, axis=-1) / mm
     player = animate(IRB140, T, motions, quantities={"distance to via, mm": away}, **PLAIN)
     [data] = player.data["quantities"]
@@ -213,12 +213,12 @@ def test_quantity_is_a_panel(page, motions, tmp_path):
     frames, words = opened(page, player, tmp_path)
     assert "distance to via, mm" in words and max(h for *_, h in frames) >= 180
     one = animate(IRB140, T, motions, quantities={"distance to via, mm": away[0]}, **PLAIN)
-    for value in range(len(FRACTIONS)):  # the same for every value of the slider
+    for value in range(len(FRACTIONS)):  # the curve is the same for every value of the slider
         [line] = panels_of(page, one, value)[3]["lines"]
         assert np.allclose(line["values"], away[0, kept(one)], atol=0.5)
 
 
-# --- What the arm shows -----------------------------------------------------------------------
+# --- Limits, rows and marks -----------------------------------------------------------------------
 
 
 def test_arm_shows_the_joints_past_a_limit(page, tmp_path):
@@ -240,7 +240,7 @@ def test_arm_shows_the_joints_past_a_limit(page, tmp_path):
 
 @pytest.mark.parametrize("arm", [IRB140, PUMA560], ids=lambda arm: arm.name)
 def test_row_of_every_posture_is_named(arm):
-    """All rows of one pose, one after the other."""
+    """The motion goes through all rows of one pose, one after the other."""
     pose = arm.fk([0.3, -0.4, 0.5, 0.6, 0.7, 0.8])
     rows = arm.ik(pose)
     q = np.repeat(rows, 10, axis=0)
@@ -267,15 +267,15 @@ def test_row_stays_through_a_singularity_and_is_missing_without_an_inverse():
     assert plain.data["arms"][0]["rows"] is None
 
 
-def test_row_stands_under_the_arm(page, tmp_path):
+def test_row_is_written_under_the_arm(page, tmp_path):
     q = follow(IRB140, IRB140.ik(lin(START, GOAL, np.linspace(0, 1, 101))), ROW)
     _, words = opened(page, animate(IRB140, np.linspace(0, 2, 101), q), tmp_path)
     signs = " ".join(f"{flag:+d}" for flag in IRB140.branches[ROW]).replace("-", "−")
     assert f"row {ROW}: {signs}" in words
 
 
-def test_marks_belong_to_one_arm(page):
-    """Two arms share each panel; the words of a jump say whose it is, and a limit stands once."""
+def test_each_mark_names_its_arm(page):
+    """Two arms share each panel; the words of a jump name its arm, and a limit is shown once."""
     jump = TURNING.copy()
     jump[300:, 3] += 1
     player = animate([IRB140] * 2, CLOCK, [TURNING, jump], names=["smooth", "torn"])
@@ -305,7 +305,7 @@ def test_marks_belong_to_one_arm(page):
         ({"quantities": {3: np.zeros(601)}}, "quantities: wanted a string"),
     ],
 )
-def test_wrong_wishes_are_refused(given, words):
+def test_wrong_arguments_are_refused(given, words):
     with pytest.raises(ValueError, match=words):
         animate(IRB140, CLOCK, TURNING, **given)
     with pytest.raises(ValueError, match="quantity d: wanted a list with one array for each of 2"):

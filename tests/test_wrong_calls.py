@@ -614,12 +614,12 @@ class Sulky:
 # name -> a function that makes the value, since some values can be used only once
 WRONG = {
     "None": lambda: None,
-    "no word": lambda: "",
+    "empty string": lambda: "",
     "a word": lambda: "abc",
     "a word that NumPy reads as a number": lambda: "90",
     "a word with a zero byte": lambda: "a\0b.html",
-    "half of a character": lambda: "\ud800",
-    "a formula that is none": lambda: "a $\\frac{ b$",
+    "half of a surrogate pair": lambda: "\ud800",
+    "an invalid formula": lambda: "a $\\frac{ b$",
     "words": lambda: ["1", "2", "3"],
     "bytes": lambda: b"12",
     "True": lambda: True,
@@ -638,7 +638,7 @@ WRONG = {
     "1e-9": lambda: 1e-9,
     "NaN": lambda: np.nan,
     "infinite": lambda: np.inf,
-    "minus infinite": lambda: -np.inf,
+    "minus infinity": lambda: -np.inf,
     "a million": lambda: 10**6,
     "a million million": lambda: 10**12,
     "10**400": lambda: HUGE,
@@ -654,7 +654,7 @@ WRONG = {
     "timedelta64": lambda: np.array([1, 2, 3], dtype="timedelta64[s]"),
     "record array": lambda: np.zeros(3, dtype=[("x", float), ("y", int)]),
     "array of objects": lambda: np.array([None, 1, {}], dtype=object),
-    "array of no axes": lambda: np.array(0.5),
+    "array without axes": lambda: np.array(0.5),
     "empty list": lambda: [],
     "empty rows": lambda: np.empty((0, 3)),
     "rows of nothing": lambda: np.empty((3, 0)),
@@ -733,7 +733,7 @@ def derived(value):
 
     last = (slice(None),) * max(array.ndim - 1, 0)
     with np.errstate(all="ignore"):
-        scaled = {"a million times": array * 1e6, "1e200 times": array * 1e200, "nought": array * 0}
+        scaled = {"a million times": array * 1e6, "1e200 times": array * 1e200, "zeros": array * 0}
     made = scaled | {
         "with a NaN": one(np.nan),
         "with an infinite number": one(np.inf),
@@ -741,25 +741,25 @@ def derived(value):
         "with 10**400": one(HUGE, object).tolist(),
         "with None": one(None, object),
         "with a word": one("x", object).tolist(),
-        "as words": array.astype(str),
+        "as strings": array.astype(str),
         "complex": array + 0j,
-        "complex, truly": array + 1j,
+        "truly complex": array + 1j,
         "masked": np.ma.masked_array(array, np.ones(array.shape, dtype=bool)),
         "in degrees": array / deg,
         "negative": -array,
         "of bool": array.astype(bool),
-        "with one axis more": array[None],
+        "with an additional axis": array[None],
         "twice": np.stack([array, array]),
         "five times": np.stack([array] * 5),
     }
     if array.ndim:
         made |= {
             "one shorter": array[(*last, slice(None, -1))],
-            "none of it": array[:0],
-            "one of it": array[:1],
+            "an empty part": array[:0],
+            "the first item": array[:1],
             "flat": array.reshape(-1),
             "transposed": array.T,
-            "turned round": array[::-1],
+            "reversed": array[::-1],
             "in a list with a shorter one": [*array.tolist(), []],
         }
     return made
@@ -790,7 +790,7 @@ def test_wrong_calls_are_refused_with_our_messages(name, page):
             if complaint.startswith(FOREIGN) and isinstance(value, bool):
                 complaint = ""  # a flag needs a truth value, and an array has none
             elif complaint and name.split()[0].endswith("__getitem__"):
-                # `[]` follows NumPy and Python: out of range is an IndexError
+                # `[]` follows NumPy and Python: an index out of range is an IndexError
                 complaint = "" if "IndexError" in complaint or FOREIGN in complaint else complaint
             elif kind == "object" and not complaint and name not in LENIENT and "__" not in name:
                 complaint = _against_the_rule(argument, value, error)
@@ -802,20 +802,20 @@ def test_wrong_calls_are_refused_with_our_messages(name, page):
     )
 
 
-def test_every_public_callable_is_called_wrongly():
+def test_every_public_callable_is_in_the_table():
     wanted = dict(_public())
     called = {}
     for name, (_, arguments, *_) in CALLS.items():
         called.setdefault(name.split()[0], set()).update(arguments)
     assert set(wanted) - set(called) == set(), "not in the table"
-    assert set(called) - set(wanted) == set(), "not public (any more)"
+    assert set(called) - set(wanted) == set(), "in the table, but not public"
     for name, parameters in wanted.items():
         if name.split(".")[-1] not in OPERATORS:
             assert parameters <= called[name], f"{name}: {parameters - called[name]} missing"
 
 
 def test_detector_of_foreign_errors_works():
-    # The checks above must detect planted errors.
+    # The detector must find planted errors.
     with np.errstate(all="warn"):
         for call, seen in (
             (lambda x: next(i for i in iter(int, 1) if i), "took longer"),
@@ -826,7 +826,7 @@ def test_detector_of_foreign_errors_works():
             assert seen in _outcome(call, {"x": 1}, seconds=0.2)[1]
 
 
-# ---- Private
+# ---- Helpers
 
 
 class TooLong(BaseException):
@@ -840,9 +840,7 @@ def _outcome(call, arguments, seconds=SECONDS):
     error, complaint, start = None, "", time.process_time()
     with warnings.catch_warnings():
         warnings.simplefilter("error")
-        warnings.simplefilter(
-            "ignore", UserWarning
-        )  # warnings about probable mistakes, which are legal
+        warnings.simplefilter("ignore", UserWarning)  # allow warnings about probable mistakes
         try:
             with _watch(seconds):
                 call(**arguments)
@@ -882,7 +880,7 @@ def _foreign(error):
     """A complaint about an error message that is not from robokin; "" if it is."""
     text = "; ".join(str(fault)[:200] for fault in getattr(error, "faults", [error])[:3])
     if not text or len(text) > 500:
-        return f"{type(error).__name__} of {len(text)} letters"
+        return f"{type(error).__name__} of {len(text)} characters"
     last = traceback.extract_tb(error.__traceback__)[-1]
     ours = last.filename.startswith(PACKAGE) and last.line.startswith("raise")
     # Python itself refuses an operator between incompatible operands.
@@ -892,8 +890,8 @@ def _foreign(error):
 
 def _against_the_rule(argument, value, error):
     """A complaint if an object() is accepted or refused with the wrong exception: TypeError is
-    right where an object of a class is wanted, ValueError where numbers or words are, and either
-    for a path, which may be both; a flag may be anything.
+    correct where an object of a class is wanted, ValueError where numbers or words are wanted, and
+    either for a path, which may be both; a flag may be anything.
     """
     if isinstance(value, bool) or (argument == "path" and error is not None):
         return ""

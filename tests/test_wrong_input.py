@@ -1,5 +1,5 @@
-"""Wrong input raises the right exception with the evidence in its message; unusual input gives the
-right answer. The tables have one line per call.
+"""Wrong input raises the correct exception with the evidence in its message; unusual input gives
+the correct answer. The tables have one line per call.
 """
 
 from types import SimpleNamespace
@@ -139,7 +139,7 @@ WRONG = {
     "position to SCARA": (lambda: SCARA.ik((0.4, 0, 0.1)), r"\(0.4, 0, 0.1\)"),
     "no such branch": (lambda: IRB140.branch(1, 1), r"3 flags.*\(1, 1\)"),
     "flag 0": (lambda: IRB140.branch(1, 0, 1), r"\(1, 0, 1\)"),
-    "limits turned round": (lambda: Arm("x", ONE, [(1, -1)]), r"\[\[1.0, -1.0\]\]"),
+    "reversed limits": (lambda: Arm("x", ONE, [(1, -1)]), r"\[\[1.0, -1.0\]\]"),
     "limits of another arm": (lambda: Arm("x", ONE, LIMITS), "wanted 1 pairs"),
     "NaN limits": (lambda: Arm("x", ONE, [(NAN, 1)]), "nan"),
     "no speed": (lambda: Arm("x", ONE, [(0, 1)], [0.0]), r"\[0.0\]"),
@@ -258,7 +258,7 @@ WRONG = {
     # derivatives
     "no samples": (lambda: differentiate([], []), "three"),
     "two samples": (lambda: differentiate([1, 2], [0, 1]), r"three times, got shape \(2,\)"),
-    "one sample more": (
+    "one sample too many": (
         lambda: differentiate(np.zeros((6, 2)), np.arange(5)),
         r"5 samples.*\(6, 2\)",
     ),
@@ -267,8 +267,8 @@ WRONG = {
         r"50 samples.*\(6, 50\)",
     ),
     "a single value": (lambda: differentiate(1.0, np.arange(5)), r"\(\)"),
-    "time stands": (lambda: differentiate(np.zeros(4), [0, 1, 1, 2]), "increasing"),
-    "time turns back": (lambda: differentiate(np.zeros(4), [3, 2, 1, 0]), "increasing"),
+    "repeated time": (lambda: differentiate(np.zeros(4), [0, 1, 1, 2]), "increasing"),
+    "decreasing times": (lambda: differentiate(np.zeros(4), [3, 2, 1, 0]), "increasing"),
     "times of a batch": (lambda: differentiate(np.zeros((4, 2)), np.zeros((4, 2))), r"\(4, 2\)"),
     "NaN time ": (lambda: differentiate(np.zeros(4), [0, 1, NAN, 2]), "nan"),
     "infinite value": (lambda: differentiate([0, INF, 0, 0], np.arange(4)), "inf"),
@@ -289,7 +289,7 @@ def test_wrong_input_is_named_in_the_error(name):
     assert len(text) < 200 and "\n" not in text
 
 
-# Calls with an argument that should be an object of a class and is not.
+# Calls with an argument that should be an object of a class, but is not.
 OF_ANOTHER_KIND = {
     "slerp to an array",
     "matrix as rotation",
@@ -335,7 +335,7 @@ RIGHT = {
     "an empty batch of poses": lambda: IRB140.ik(Transform.identity((0,))).shape == (0, 8, 6),
     "an empty batch of joints": lambda: IRB140.fk(np.zeros((0, 6))).shape == (0,),
     "no points": lambda: (B @ np.zeros((0, 3))).shape == (0, 3),
-    "a share of the rounding past the end": lambda: same(lin(A, B, 1 + 1e-15), B),
+    "a share past the end by a rounding error": lambda: same(lin(A, B, 1 + 1e-15), B),
     "NaN joints": lambda: np.isnan(IRB140.fk(np.full(6, NAN)).translation).all(),
     "a missing pose": lambda: np.isnan(IRB140.ik(IRB140.fk(np.full((2, 6), NAN)))).all(),
     "a missing row stays missing": lambda: np.isnan(
@@ -343,12 +343,12 @@ RIGHT = {
     ).all(),
     "a far pose": lambda: np.isnan(IRB140.ik(Transform(translation=(1e100, 0, 0)))).all(),
     "a pose at the base": lambda: IRB140.ik(Transform()).shape == (8, 6),
-    "a duration in words that are a number": lambda: linear(np.array(20))(5) == 0.25,
+    "a duration in an array without axes": lambda: linear(np.array(20))(5) == 0.25,
     "one quarter": lambda: trapezoidal(2, np.float32(0.25))(1) == 0.5,
 }
 
 
 @pytest.mark.parametrize("name", RIGHT)
-def test_unusual_input_gives_the_right_answer(name):
+def test_unusual_input_gives_the_correct_answer(name):
     with np.errstate(over="raise", divide="raise", invalid="raise"):
         assert RIGHT[name]()

@@ -22,8 +22,8 @@ Targets: TypeAlias = Transform | Iterable[Transform] | Mapping[Any, Transform]
 
 
 def named_targets(targets: Targets) -> dict[str, Transform]:
-    """Return `targets` as a dict of name -> Transform. A single pose of a list is named target, two
-    are named start and goal, three start, via and goal, and more P1, P2, ... TypeError: an item
+    """Return `targets` as a dict of name -> Transform. In a list, a single pose is named target,
+    two are named start and goal, three start, via and goal, and more P1, P2, ... TypeError: an item
     that is not a pose. ValueError: a batch of poses under one name.
     """
     named = posed(targets)
@@ -69,7 +69,7 @@ def tracks(
     if names is not None and not several:
         raise ValueError("names: wanted only with a list of arms; one arm has its own name")
     if recorded and (t is not None or q is not None):
-        raise ValueError("t and q: wanted neither with recordings, which have their own")
+        raise ValueError("t and q: not wanted with recordings, which have their own")
     motions = [q] if not several else q if not recorded else [None] * len(arms)
     if not (arms and isinstance(motions, (list, tuple)) and len(motions) == len(arms)):
         wanted = f"a list with one array for each of {len(arms)} arms"
@@ -128,7 +128,7 @@ def _pair(value: Any, name: str, what: str) -> tuple[str, Any]:
 
 
 def slider(value: Any) -> Slider | None:
-    """Return (name, values) as page data."""
+    """Return a slider (name, values) as page data."""
     if value is None:
         return None
     label, given = _pair(value, "slider", "values")
@@ -144,7 +144,7 @@ def slider(value: Any) -> Slider | None:
 
 
 def switch(value: Any) -> Switch | None:
-    """Return (name, words) as page data."""
+    """Return a switch (name, words) as page data."""
     if value is None:
         return None
     label, values = _pair(value, "switch", "words")
@@ -157,7 +157,7 @@ def things(
     targets: Targets, points: Any, circles: Any, faces: Any, readings: Any, more: Any
 ) -> list[Thing]:
     """The things that the arguments of `animate` describe, and `more` things of any kind.
-    TypeError: one of those is not a `Thing`.
+    TypeError: one of `more` is not a `Thing`.
     """
     polygons = Faces(faces)
     found: list[Thing] = [Target(pose, name) for name, pose in posed(targets).items()]
@@ -168,7 +168,7 @@ def things(
 
 
 def quantities(given: Any, arms: int, lead: tuple[int, ...], samples: int) -> dict[str, Floats]:
-    """Return the quantities by name: (arms, motions, samples) each."""
+    """Return the quantities as a dict of name -> values (arms, motions, samples)."""
     if not isinstance(given, Mapping):
         raise ValueError(f"quantities: wanted a dict name -> numbers, got {short(given)}")
     found = {}
@@ -201,7 +201,7 @@ def watch(panel: Any, joints: Any, names: list[str], arms: Sequence[Arm]) -> Wat
 
 
 def bases(value: Any, count: int) -> Floats | None:
-    """Return the positions of `count` arms in one space: (count, 2)."""
+    """Return the positions of `count` arms in one scene: (count, 2)."""
     if value is None:
         return None
     found = in_sight(floats(value, "bases"), "bases")
@@ -233,7 +233,7 @@ def _marks(points: Any, circles: Any, readings: Any) -> list[Mark]:
 
 
 def _named(places: Any, name: str) -> list[tuple[str, Any]]:
-    what = "a list or a dict of them"
+    what = f"a list or a dict of {name}"
     if isinstance(places, Mapping):
         return [(plain(str(k), name), v) for k, v in several(places.items(), name, what)]
     return [("", value) for value in several(places, name, what, most=1000)]

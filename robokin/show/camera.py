@@ -2,7 +2,7 @@
 see.
 
 `project` returns metres in the picture. `scene.Scene._fit` and matplotlib convert them to pixels;
-in a page `js/camera.js` does.
+on a page, `js/camera.js` does.
 """
 
 from collections.abc import Iterable, Sequence
@@ -42,9 +42,8 @@ def project(points: ArrayLike, view: View = VIEW) -> Floats:
 
 
 def posture(arm: Arm, q: Floats) -> Floats:
-    """The same postures q (..., n), with angles beyond two turns wrapped. A motion that keeps
-    turning (`follow` returns such motions) is not a mistake, so it must not cause the warning about
-    degrees.
+    """The postures q (..., n) with angles beyond two turns wrapped. A motion that keeps turning (as
+    `follow` may return) is not a mistake, so it must not cause the warning about degrees.
     """
     far = (abs(q) > TWO_TURNS) & ~arm.prismatic
     return np.where(far, wrapped(q), q) if far.any() else q
@@ -99,7 +98,7 @@ def scene_data(
     bases: Floats | None = None,
 ) -> PageScene:
     """The page data of a scene: the camera, the points that it must see, the floor and the things.
-    `kept` are the samples of moving things that the page gets. A `solid` floor is at height 0.
+    `kept` are the samples of moving things that the page contains. A `solid` floor is at height 0.
     """
     flat, foot = common_plane(arms), 0.08 * size * np.array([[-1], [1]])
     feet = standing(bases, len(arms))

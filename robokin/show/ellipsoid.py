@@ -53,7 +53,7 @@ def plot_velocity_ellipsoid(
         style: dict[str, Any] = {"fontsize": 12, "fontweight": "bold", "color": INK}
         fig.text(0.014, 0.985, title, va="top", parse_math=False, **style)
     points = [arm_points(arm, q).reshape(-1, 3)]
-    # Points on the ellipsoids, so that none of them leaves its panel.
+    # Points on the ellipsoids, so that each ellipsoid stays inside its panel.
     across, up = (x.ravel() for x in np.meshgrid(ROUND[::3], ROUND[::3]))
     ball = np.stack([np.cos(up) * np.cos(across), np.cos(up) * np.sin(across), np.sin(up)])
     points += [tool[i] + drawn * (axes[i] @ ball).T for i in range(len(q))]
@@ -110,7 +110,7 @@ def _ellipsoid(scene: Scene, centre: Floats, axes: Floats) -> None:
     ways, lengths, _ = np.linalg.svd(flat, full_matrices=False)
     ring = (ways * lengths) @ np.stack([np.cos(ROUND), np.sin(ROUND)])
     outline = (scene.project(centre)[:, None] + ring).T
-    scene.drawn.append((outline, 1))  # labels avoid it
+    scene.drawn.append((outline, 1))  # so that labels avoid it
     scene.ax.add_patch(
         Polygon(
             outline,

@@ -1,4 +1,4 @@
-"""The common parts of all explorers of an arm: page data, words, code, still picture."""
+"""The common parts of all explorers of an arm: page data, text, code, still picture."""
 
 from collections.abc import Mapping, Sequence
 from typing import TypeAlias
@@ -78,8 +78,8 @@ WORDS: Mapping[str, str] = {
 
 
 class Explorer(Output):
-    """An arm in a page that the reader can move. It displays itself in a notebook; `save` writes it
-    as a page.
+    """An arm on a page, which the reader can move. It displays itself in a notebook; `save` writes
+    it as a page.
 
     data    the data of the page, ready for JSON: a `page.PageExplorer`
     still   the figure that is shown until the script runs, in print, and in an untrusted
@@ -88,13 +88,13 @@ class Explorer(Output):
 
     @property
     def call(self) -> str:  # type: ignore[override]
-        """The module and function that show it."""
+        """The module and the function that show the explorer."""
         return f"{self.data['kind']}_explorer.explore"
 
 
 def inverted(arm: ClosedFormArm) -> None:
-    """Check that the scripts know the inverse of an arm. TypeError: it has none, or one that they
-    do not know.
+    """Check that the scripts implement the inverse of an arm. TypeError: it has none, or one that
+    they do not implement.
     """
     kind = type(instance(arm, ClosedFormArm, "arm").geometry)
     if kind not in KINDS:
@@ -118,7 +118,7 @@ def pose_data(pose: Pose) -> PagePose:
     return {"place": pose.translation.tolist(), "rotation": pose.rotation.wxyz.tolist()}
 
 
-# --- What the page gets ---------------------------------------------------------------------------
+# --- Page data ------------------------------------------------------------------------------------
 
 
 def arm_page(
@@ -132,8 +132,8 @@ def arm_page(
     meant: str,
     code: str,
 ) -> ArmPage:
-    """The page data that all explorers of an arm share, from the postures (k, n) with which it
-    opens and the targets in its scene.
+    """The page data that all explorers of an arm share, made from the postures (k, n) with which
+    the page opens and the targets in its scene.
     """
     name, size = length_unit(extent(arm))
     return {
@@ -153,7 +153,7 @@ def arm_page(
 
 def _scene(arm: Arm, posed: Mapping[str, Transform], opening: Floats) -> PageScene:
     """A scene that shows the opening postures (k, n) and those near them, above the floor. The page
-    zooms out for anything that leaves the picture.
+    zooms out when anything leaves the picture.
     """
     flat = common_plane([arm]) is not None
     turn = np.where(arm.prismatic, 0.03 * extent(arm), (40 if flat else 20) * deg)
@@ -171,7 +171,7 @@ def _scene(arm: Arm, posed: Mapping[str, Transform], opening: Floats) -> PageSce
 def control(
     name: str, unit: str, low: float, high: float, step: float, decimals: int | None = None
 ) -> Control:
-    """A slider. By default its values have one decimal, or three in metres."""
+    """The page data of a slider. By default its values have one decimal, or three in metres."""
     default = 3 if unit == "m" else 1
     ends = [float(np.round(x, 9)) for x in (low, high)]
     return {
@@ -202,11 +202,11 @@ def number(value: float, decimals: int) -> str:
     return f"{tidy(value, decimals):.{decimals}f}".replace("-", "\N{MINUS SIGN}")
 
 
-# --- In code --------------------------------------------------------------------------------------
+# --- Python code for the reader -------------------------------------------------------------------
 
 
 def code_name(arm: Arm) -> str:
-    """The name of this arm in the package, otherwise `arm`."""
+    """The name of this arm in the package, or `arm` if it has none."""
     return next((name for name in robokin.__all__ if getattr(robokin, name) is arm), "arm")
 
 

@@ -1,9 +1,9 @@
-"""Explorers: an arm in a page that the reader can move, without a kernel.
+"""Explorers: an arm on a page, which the reader can move without a kernel.
 
 In `joint_explorer` the reader turns joints; in `target_explorer` the reader moves a target and sees
 every branch of `ik` with its verdict. The page computes with the scripts in `js/`; `twin.py`
 prepares the data of the arm. The reasons why a row of `ik` does not exist or cannot be used are in
-`arms/verdicts.py`, all other words in `explorer.WORDS`.
+`arms/verdicts.py`, all other text is in `explorer.WORDS`.
 """
 
 import numpy as np
@@ -53,8 +53,8 @@ MEANT = (
 def joint_explorer(arm: Arm, q: ArrayLike | None = None) -> "Explorer":
     """Show an arm with a ring and a slider for each joint, all its frames, the numbers of the
     flange, and the distance from a singularity. It opens at the posture q (n,), by default at one
-    with a good view. It displays itself at the end of a cell. TypeError: not an Arm. ValueError: a
-    q that is not a posture.
+    that is easy to see. It displays itself at the end of a cell. TypeError: not an Arm. ValueError:
+    a q that is not a posture.
 
     Roll, pitch and yaw are rotations about the fixed x, y and z axes of the base, in this order: R
     = Rz Ry Rx. (At a pitch of +-90 degrees roll and yaw rotate about the same line, and roll is set
@@ -102,9 +102,9 @@ def joint_explorer(arm: Arm, q: ArrayLike | None = None) -> "Explorer":
 
 
 def target_explorer(arm: ClosedFormArm | ThreeLeverArm) -> "Explorer":
-    """Show a target with rings and arrows to drag it, and every branch of `ik`, the chosen one
-    drawn boldly, with a row in a table for each. A click on a row chooses the branch. The menu can
-    do that too, or select the usable branch nearest to the last posture.
+    """Show a target with rings and arrows to drag it, and every branch of `ik`, each with a row in
+    a table and the chosen one drawn boldly. A click on a row chooses the branch. The menu can do
+    that too, or select the usable branch nearest to the last posture.
 
     The target of a six-axis arm is a position with roll, pitch and yaw as in `joint_explorer`; of a
     SCARA, a position and the tool's angle; of a positioning arm, a position. For three levers it
@@ -179,7 +179,7 @@ def target_explorer(arm: ClosedFormArm | ThreeLeverArm) -> "Explorer":
 
 def _showcase(arm: ClosedFormArm) -> tuple[Floats, Floats, Floats]:
     """A target with as many usable branches as possible, far from singularities, in front of the
-    arm and above the floor. (If there is none, the one at the middle of all limits.)
+    arm and above the floor. (If there is none, the target at the middle of all limits.)
 
     Returns the position (3,) and the rotations in radians, in round numbers, and a posture (n,)
     that reaches it.
@@ -197,7 +197,7 @@ def _showcase(arm: ClosedFormArm) -> tuple[Floats, Floats, Floats]:
         usable = np.all(within(arm, rows), axis=-1)
         if usable.any():
             near = np.nanmin(distance_from_singularity(arm, rows))
-            # singular targets last: two branches coincide there, and both vanish a step further
+            # rank singular targets last: two branches coincide there and vanish a step farther
             score = (usable.sum() if near > 0.03 else 0) + float(np.round(near, 6))
             if score > most:
                 best = place, turns, nearest(arm, rows[usable], np.zeros(len(arm.links)))

@@ -19,14 +19,14 @@ from .things import Thing
 
 WIDTH = 640  # pixels
 RATE, FRAMES = 12, 120  # maximum number of frames: per second, and in total
-BYTES = 3_000_000  # small enough for an e-mail
+BYTES = 3_000_000  # maximum size of a film, which fits in an e-mail
 COLOURS = 64
 TRACED = 1001  # maximum number of points in a tool's path
 
 
 class Film:
-    """A film of the first motion of a player, the one that it opens with. Fixed things are drawn
-    once; only arms and moving things, with their labels, are drawn for each frame.
+    """A film of the first motion of a player, with which it opens. Fixed things are drawn once;
+    only arms and moving things, with their labels, are drawn for each frame.
     """
 
     def __init__(
@@ -66,7 +66,7 @@ class Film:
         return file.getvalue()
 
     def _frames(self, at: Ints) -> Iterator[Floats]:
-        """Yield the pictures (height, width, 3) at these samples."""
+        """Yield the frames (height, width, 3) at these samples."""
         count = 1 if self.bases is not None else len(self.motions)
         figure = plots.figure(self.title, width=4.5 * count if count > 1 else 6.4, height=4.5)
         figure.set_dpi(WIDTH / figure.get_figwidth())
@@ -97,7 +97,7 @@ class Film:
             yield np.array(canvas.buffer_rgba())[..., :3]
 
     def _still(self, scene: Scene, arms: Sequence[tuple[Arm, Floats, Floats]]) -> None:
-        """Draw what does not move: bases, paths of the tools, fixed things."""
+        """Draw the parts that do not move: bases, paths of the tools, fixed things."""
         for arm, q, base in arms:
             scene.base(base)
             some = np.linspace(0, len(q) - 1, min(len(q), TRACED)).astype(int)

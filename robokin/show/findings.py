@@ -1,4 +1,4 @@
-"""Findings in recorded motions, for the words beside their curves: greatest values, the distance to
+"""Findings in recorded motions, for the text next to their curves: greatest values, the distance to
 a via point, jumps and gaps, and a summary in one sentence.
 """
 
@@ -87,16 +87,16 @@ def flags(arm: ClosedFormArm, k: int) -> str:
 
 
 def rows(arm: Arm, q: Floats) -> list[list[tuple[int, str]]] | None:
-    """For each motion q (motions, samples, n) the rows of `ik` to which its postures belong: the
-    first sample of each and its name. None: the arm has no inverse, or has only one row.
+    """For each motion of q (motions, samples, n), the rows of `ik` to which its postures belong:
+    the first sample and the name of each. None if the arm has no inverse or only one row.
 
-    Where rows coincide, at a singularity, the posture keeps the row that it had.
+    Where rows coincide, at a singularity, the posture keeps the row of the sample before.
     """
     if not isinstance(arm, ClosedFormArm) or len(arm.branches) < 2:
         return None
     solved = arm.ik(arm.fk(q))  # (motions, samples, rows, n)
     away = abs(unwrapped(arm, solved, q[..., None, :]) - q[..., None, :]).max(axis=-1)
-    belongs = away < 1e-6  # a NaN does not
+    belongs = away < 1e-6  # False for a NaN
     found = []
     for motion in belongs:
         runs: list[tuple[int, str]] = []
@@ -110,7 +110,9 @@ def rows(arm: Arm, q: Floats) -> list[list[tuple[int, str]]] | None:
 
 
 def spells(t: Floats, holds: Bools) -> str:
-    """When something holds: "from 0.00 to 6.72 s", or the first of several such times."""
+    """The times at which `holds` is true, as text: "from 0.00 to 6.72 s", or the first interval and
+    the number of the others.
+    """
     edges = np.flatnonzero(np.diff(np.concatenate([[False], holds, [False]]).astype(int)))
     first = f"from {tidy(t[edges[0]], 2):.2f} to {tidy(t[edges[1] - 1], 2):.2f} s"
     return first if len(edges) == 2 else f"{first} and {len(edges) // 2 - 1} more times"
@@ -118,7 +120,7 @@ def spells(t: Floats, holds: Bools) -> str:
 
 def flaws(track: Recording, kept: Ints, units: Floats, length: str) -> Flaws:
     """The flaws of each motion that has any: gaps between kept samples, jumps to mark with their
-    words, and sentences.
+    labels, and sentences.
     """
     gaps: dict[int, list[int]] = {}
     jumps: dict[int, list[Any]] = {}

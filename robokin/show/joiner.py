@@ -17,18 +17,19 @@ IMPORT = re.compile(r'import\s*\{\s*([\w$]+(?:,\s*[\w$]+)*),?\s*\}\s*from\s*"\./
 EXPORT = re.compile(r"export\s+((?:async\s+)?function|const|class)\s+([\w$]+)")
 
 BLANK = re.compile(r"(?:\s|//.*|/\*[\s\S]*?\*/)+")
-TEMPLATE = re.compile(r"[`}](?:[^`\\$]|\\[\s\S]|\$(?!\{))*(?:`|\$\{)")  # up to its end or next ${
+# a part of a template literal, up to its end or the next ${
+TEMPLATE = re.compile(r"[`}](?:[^`\\$]|\\[\s\S]|\$(?!\{))*(?:`|\$\{)")
 REGULAR = re.compile(r"/(?![*/])(?:[^/\\\[\n]|\\.|\[(?:[^\]\\\n]|\\.)*\])+/\w*")
 OTHER = re.compile(r"""[\w$]+|"(?:[^"\\\n]|\\[\s\S])*"|'(?:[^'\\\n]|\\[\s\S])*'|(?!/\*)[^"'`]""")
-VALUE = re.compile(r"""[\w$)\]}"'`]""")  # a slash after one of these divides
+VALUE = re.compile(r"""[\w$)\]}"'`]""")  # a slash after one of these is a division
 NO_VALUES = {"return", "typeof", "case", "in", "delete", "void", "throw", "else", "do", "await"}
 CSS_BLANK = re.compile(r"\s*(?:/\*[\s\S]*?\*/\s*)+|\s+")
-CSS_SIGN = re.compile(r" ?([{};,>]) ?|(?<=[\w-])(:) ")  # spaces beside these have no meaning
+CSS_SIGN = re.compile(r" ?([{};,>]) ?|(?<=[\w-])(:) ")  # spaces next to these signs have no meaning
 CSS_LINE = re.compile(r"(.{160,}?[{};])(?!\})")
 NEEDS_BLANK = re.compile(r"[\w$]{2}|[-+/<!]{2}|\d\.")  # without a space the two tokens would merge
 
 
-@cache  # since a lab has about twenty outputs
+@cache  # a lab has about twenty outputs
 def script(name: str) -> str:
     """Return the module `name` of the folder js and all its imports, each once and in its own
     scope, as one script in which `$name` holds its exports. `call` in `output.Output` and
@@ -71,7 +72,7 @@ def style(name: str) -> str:
 
 
 def _modules(name: str) -> dict[str, str]:
-    """Return the scripts of all modules that `name` needs; its own is the last one."""
+    """Return the scripts of all modules that `name` needs; its own comes last."""
     modules: dict[str, str] = {}
     _add(modules, name, (), f"{name}.js")
     return modules
@@ -135,7 +136,7 @@ def _laid(pieces: list[tuple[str, str]]) -> str:
 
 
 def _tokens(text: str, name: str) -> Iterator[tuple[str, int]]:
-    """Yield words, symbols and literals with their positions, without comments and whitespace. Each
+    """Yield words, symbols and literals with their positions, but no comments or whitespace. Each
     part of a template literal between expressions is one token, with its quotes or braces.
     """
     at, before = 0, ""

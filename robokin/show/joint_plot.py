@@ -67,20 +67,21 @@ def plot_joints(
                                             accelerations
 
     t (samples,) in seconds; q, v, a (samples, n) in radians and metres, drawn as they are: NaN is a
-    gap, a jump by a whole turn is a jump. Prismatic joints have panels of their own, in mm.
-    A limit is shaded if its joint comes near it; samples past it are marked and counted. Samples
-    are compared with the limits as drawn; q + 360 degrees may still be inside (see `within`). Jumps
-    are those that `record` finds. A lone spike, which a jump leaves in v or a when it is
-    differentiated, does not set the scale: it extends beyond the panel, and its heading says so.
+    gap, a jump by a whole turn is drawn as a jump. Prismatic joints have panels of their own, in
+    mm. A limit is shaded if its joint comes near it; samples past it are marked and counted.
+    Samples are compared with the limits as drawn; q + 360 degrees may still be inside (see
+    `within`). Jumps are those that `record` finds. A lone spike, which a jump leaves in v or a when
+    it is differentiated, does not set the scale: it extends beyond the panel, and its heading says
+    so.
 
-    In a notebook the figure shows its curves in the page's own colours and width; `savefig` writes
-    a picture.
+    A notebook shows the curves in the colours and the width of the page, with prismatic joints on
+    an axis on the right; `savefig` writes the figure to a file.
     """
     title, alt = if_given(title, "title"), if_given(alt, "alt")
     given = {kind: values for kind, values in (("v", v), ("a", a)) if values is not None}
     if isinstance(arm, Recording):
         if t is not None or q is not None:
-            raise ValueError("t and q: wanted neither with a recording, which has its own")
+            raise ValueError("t and q: not wanted with a recording, which has its own")
         if arm.shape:
             raise ValueError(f"recording: wanted a single motion, got shape {arm.shape}")
         recording, kinds = arm, ["q", "v", "a"]

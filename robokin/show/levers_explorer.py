@@ -10,7 +10,7 @@ from .page import LeversPage
 
 
 def levers_explorer(arm: ThreeLeverArm) -> Explorer:
-    """`target_explorer` for three levers."""
+    """Return the `target_explorer` of an arm with three levers."""
     name, size = length_unit(extent(arm))
     place = np.array([0.55, 0.35, 0.0]) * extent(arm)
     before, _ = arm.least(place, arm.limits.mean(axis=-1))

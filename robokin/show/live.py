@@ -3,7 +3,8 @@
 A view is an `explorer.Explorer` whose script (`js/live.js`) sends questions. It stores the first
 answer, from which it is drawn without a kernel: in a saved notebook, in an exported page and in
 print. It is then asleep, and says so. A widget without a view of its own wakes it: the model of the
-widget finds the view in the page. A page without a kernel therefore lacks nothing that is stored.
+widget finds the view in the page. A page without a kernel therefore still shows everything that is
+stored.
 """
 
 import base64
@@ -37,9 +38,9 @@ class Live(Explorer):
 
     data    a `page.PlanPage` or `TourPage` without `first` and without the words of this module
     still   the still picture, as in every `Explorer`
-    first   the question with which it opens; its answer is stored
+    first   the question that is asked first; its answer is stored
     answer  a function: question (JSON values) -> answer, a dict of JSON values and arrays of
-            the TYPES. It is called at every move of the pointer, in its own thread
+            the TYPES. It is called on every move of the pointer, in its own thread
     """
 
     def __init__(
@@ -97,7 +98,7 @@ def stored(content: Any, buffers: list[bytes]) -> Any:
 
 # --- The widget -----------------------------------------------------------------------------------
 
-_awake: dict[str, Any] = {}  # view -> widget: a cell that runs again replaces its widget
+_awake: dict[str, Any] = {}  # id of a view -> its widget; a cell that runs again replaces it
 
 
 def _wake(place: str, answer: Callable[[Question], Answer]) -> None:
@@ -107,7 +108,7 @@ def _wake(place: str, answer: Callable[[Question], Answer]) -> None:
         try:
             content, buffers = split_arrays(answer(message["question"]))
             inert(content)
-        except Exception as error:  # the view shows it; nobody reads the output of this thread
+        except Exception as error:  # the view shows it, since this thread has no visible output
             content, buffers = {"error": f"{type(error).__name__}: {error}"}, []
         model.send({"to": message["to"], "n": message["n"], "answer": content}, buffers)
 
@@ -121,7 +122,7 @@ def _wake(place: str, answer: Callable[[Question], Answer]) -> None:
 
 def unseen(page: str, hear: Callable[[Any, Any, Any], None]) -> Any:
     """Return a widget without a view. `page` is a module whose default export has
-    `initialize({model})`; `hear` is called with the widget, a message of that model and its
+    `initialize({model})`; `hear` is called with the widget, a message from that model and its
     buffers.
     """
     from anywidget import AnyWidget  # imported here because it loads ipywidgets

@@ -61,9 +61,9 @@ def motion_explorer(
 ) -> "Explorer":
     """Show a blended motion past `via`: start, via and goal with rings and arrows to drag, sliders
     for the via point, the blend and the duration, menus for the time law, the corner and the
-    branch. Arm, curves and numbers follow; it plays, and a click on a curve sets the clock. It
-    opens with this time law and duration (s), on branch `row`, by default the first one with the
-    most usable samples.
+    branch. The arm, the curves and the numbers follow; the motion can be played, and a click on a
+    curve sets the clock. The explorer opens with the time law `law` and a `duration` in seconds, on
+    branch `row`, by default the first of those with the most usable samples.
 
     The poses are single targets of `arm.ik` (Transform, or ScaraPose for a SCARA). ValueError: a
     batch of poses, or an unknown row. TypeError: poses of another type, or an arm without `ik`.
@@ -148,8 +148,8 @@ def _fastest(
     arm: ClosedFormArm, pose: Callable[[Floats], Pose], t: Floats, q: Floats
 ) -> tuple[float, int, str]:
     """The greatest speed of a motion with the samples q (samples, n), in the joint's unit; its
-    joint; and words that qualify it: "" if it includes the values between the samples, because the
-    motion is complete and passes no singularity.
+    joint; and a qualification: "" if it includes the values between the samples, because the motion
+    is complete and passes no singularity.
     """
     scale, h, track = sizes(arm), 1e-7 * t[-1], record(arm, t, q)
 

@@ -1,8 +1,8 @@
-"""The motor explorer: a stepper motor in a page, seen along its shaft, which the reader can turn
-without a kernel.
+"""The motor explorer: a stepper motor on a page, seen along its shaft. The reader can turn its
+rotor without a kernel.
 
 The page computes with `js/rotor.js`, which implements `jobs.steppers.Stepper`. The phase tables,
-the positions of the poles and all words come from this module.
+the positions of the poles and all text come from this module.
 """
 
 from collections.abc import Sequence
@@ -18,14 +18,14 @@ from .explorer import Explorer
 from .page import Control
 from .palette import FAINT, INK, JOINT_STYLES, PANEL_GRID, REMARK, SOFT
 
-PULSES = 48  # pulses of a run
+PULSES = 48  # number of pulses in a run
 DRIVES = {"wave": "wave", "two-phase": "two-phase", "half-step": "half step"}
 KINDS = {
     ("active", "unipolar"): "magnet (active), unipolar",
     ("active", "bipolar"): "magnet (active), bipolar",
     ("passive", "unipolar"): "soft iron (passive), unipolar",
 }
-ON, OTHER, NORTH = (JOINT_STYLES[j]["color"] for j in (4, 5, 1))  # for + current, - current, N pole
+ON, OTHER, NORTH = (JOINT_STYLES[j]["color"] for j in (4, 5, 1))  # + current, - current, N pole
 PLUS, MINUS = "+", "\N{MINUS SIGN}"
 WORDS = {
     "motor": "rotor, feed",
@@ -202,7 +202,7 @@ class PageMotors(TypedDict):
 
 def motor_explorer(motor: Stepper | None = None) -> Explorer:
     """Show a stepper motor along its shaft: windings coloured by their currents, the field, and a
-    rotor to turn; beside it the phase table with the current row. Pulses come one by one or as a
+    rotor to turn; next to it the phase table with the current row. Pulses come one by one or as a
     run at a frequency, with a load and a ramp; lost steps are counted and drawn over time. Menus
     choose rotor, feed, windings and drive.
 
@@ -287,7 +287,7 @@ def motor_explorer(motor: Stepper | None = None) -> Explorer:
     return Explorer(data, _picture(opened, summary))
 
 
-# --- What the page gets ---------------------------------------------------------------------------
+# --- Page data ------------------------------------------------------------------------------------
 
 
 def _motor(rotor: str, feed: str, n: int) -> PageMotor:
@@ -311,7 +311,7 @@ def _motor(rotor: str, feed: str, n: int) -> PageMotor:
 
 
 def _heads(rotor: str, feed: str, n: int) -> list[str]:
-    """The column heads of the table: those of the document where it has them, otherwise letters."""
+    """The column heads of the table: those of the document if it gives them, otherwise letters."""
     if feed == "bipolar":
         return [f"{end}{k + 1}" for k in range(n) for end in "ab"]
     return ["a1", "b1", "a2", "b2"] if (rotor, n) == ("active", 4) else list("abcdef"[:n])
@@ -340,7 +340,7 @@ def _poles(rotor: str, feed: str, n: int) -> list[PagePole]:
 
 
 def _picture(motor: Stepper, alt: str) -> plots.Figure:
-    """Draw the motor in the first row of its table, and the table."""
+    """Draw the motor with the currents of the first row of its table, and the table."""
     page = _motor(motor.rotor, motor.motor, motor.windings)
     rows, currents = page["printed"][motor.drive], page["currents"][motor.drive][0]
     fig = plots.figure(alt, width=8.0, height=4.2)

@@ -36,7 +36,7 @@ class Packed(TypedDict):
 
 
 def tidy(x: float, decimals: int) -> float:
-    """Round x; an exact half and the noise around it always round up, and there is no negative
+    """Round x; an exact half, even with rounding noise, always rounds up, and there is no negative
     zero.
     """
     scale = 10.0**decimals
@@ -92,9 +92,9 @@ def series_step(least: float) -> float:
 
 
 def thin(count: int, tracks: Sequence[Recording], wanted: int) -> Ints:
-    """Which of `count` samples the page gets: evenly spread ones, those on both sides of each jump,
-    and those with the greatest speed and acceleration of each motion, so that the curves reach the
-    values in the table.
+    """Which of `count` samples the page contains: evenly spread ones, those on both sides of each
+    jump, and those with the greatest speed and acceleration of each motion, so that the curves
+    reach the values in the table.
     """
     values = sum(track.q.shape[0] * track.q.shape[2] for track in tracks)
     wanted = min(count, wanted, max(41, int(DATA_BYTES / (3 * values * 1.1 * 4 / 3))))
@@ -196,7 +196,7 @@ def fewest(values: Floats, most: int = 2) -> int:
 
 def decimals(curves: Iterable[Floats]) -> int:
     """The number of decimals for one quantity, from one to three: the smaller its greatest value,
-    the more.
+    the more decimals.
     """
     greatest = max(np.nanmax(abs(c), initial=0, where=~np.isnan(c)) for c in curves)
     return 1 if greatest >= 10 else 2 if greatest >= 1 else 3

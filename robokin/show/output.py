@@ -18,7 +18,7 @@ class Output:
     data    the data of the page, ready for JSON
     still   the figure that is shown until the script runs, in print, and in an untrusted
             notebook
-    call    the module in js/ that shows it, and its function
+    call    the module in js/ and its function that show the piece
     """
 
     call = "player.play"

@@ -8,7 +8,7 @@ from .numbers import Packed, Scale
 from .things import PageThing
 from .twin import ArmData, PageLink
 
-# --- The data -------------------------------------------------------------------------------------
+# --- Page data ------------------------------------------------------------------------------------
 #
 # Scenes use metres and radians; curves use degrees and the unit of lengths. A rigid transform is 12
 # numbers: the rows of [R | p]. Each motion belongs to one value of the switch and one of the
@@ -67,8 +67,8 @@ class Axis(TypedDict):
 
 class PagePanel(TypedDict):
     """One panel of curves, with one scale for all motions. `near`: the limits to show for each arm,
-    [joint, 0 lower or 1 upper]. `axes`: the axes of "turn" and "shift" joints, if there are such
-    joints.
+    [joint, 0 lower or 1 upper]. `axes`: the axes of "turn" and "shift" joints, if the arms have
+    any.
     """
 
     label: str
@@ -77,8 +77,8 @@ class PagePanel(TypedDict):
 
 
 class PageQuantity(TypedDict):
-    """A panel of a number that belongs to no joint, such as a distance: its name with the unit, its
-    scale, and the numbers of each arm.
+    """A panel of a quantity that does not belong to a joint, such as a distance: its name with the
+    unit, its scale, and the numbers of each arm.
     """
 
     label: str
@@ -87,8 +87,8 @@ class PageQuantity(TypedDict):
 
 
 class Watch(TypedDict):
-    """What to look at: the panel that is large (its index, quantities after the three panels of
-    joints) and the joints that are not faint, from 0; None: all of them.
+    """The panel and the joints to watch: the index of the large panel (quantities come after the
+    three panels of joints) and the joints that are not faint, from 0 (None: all of them).
     """
 
     panel: int
@@ -97,7 +97,7 @@ class Watch(TypedDict):
 
 class Greatest(TypedDict):
     """For each motion and joint: the greatest speed, its percentage of the limit, and the greatest
-    acceleration, or a text if the speed jumps.
+    acceleration, or a string if the speed jumps.
     """
 
     speed: list[list[float]]
@@ -107,7 +107,7 @@ class Greatest(TypedDict):
 
 class Flaws(TypedDict):
     """The flaws of motions, by the index of the motion: the samples after which the curves break,
-    [[time, words]] for jumps in speed and in position, and sentences about them.
+    [[time, label]] for jumps in speed and in position, and sentences about them.
     """
 
     gaps: dict[str, list[int]]

@@ -22,7 +22,8 @@ def joint_panel(
     """The scales of one panel, for revolute and prismatic joints, and the limits that it shows.
 
     All motions share one scale, and the panel shows the limits that any motion comes near to, so
-    that both stay while a slider moves. Limits of joints that are not to be watched are not shown.
+    that neither changes while a slider moves. The limits of joints that are not watched are not
+    shown.
     """
     per = ("", "/s", "/s²")[order]
     # two arrays (motions, n) for each arm

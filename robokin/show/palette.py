@@ -26,7 +26,7 @@ DASHES = [list(style["dash"]) for style in JOINT_STYLES]  # for pages
 AXIS_COLORS = ("#C62828", "#2E7D32", "#1F55C4")  # x, y, z of a triad: red, green, blue
 ALARM, TRACE, PALE = "#B3261E", "#0072B2", "#B3D4E8"  # PALE: a trace in the background
 
-# Figures: lines and words, postures from strong to faint, and the floor.
+# Colours of figures: lines and text, postures from strong to faint, and the floor.
 INK, SOFT, FAINT, GRID = "#2F3A45", "#87939F", "#C3CAD1", "#DDE2E7"
 REMARK, SCALE = "#5A6672", "#6B7681"
 PANEL_GRID, SHADOW, FOOT = "#E9ECEF", "#EDEFF2", "#D5DAE0"
@@ -50,7 +50,7 @@ PAGE: Mapping[str, tuple[str, str]] = MappingProxyType(
         "button": ("#F4F6F8", "#2A323A"),
         "hover": ("#E8ECEF", "#36404A"),
         "rest": ("#A9B3BC", "#5E6A76"),  # the border of a button
-        # the arm: outline, body and light of links and of the rods of prismatic joints
+        # the arm: outline, body and highlight of links and of the rods of prismatic joints
         "edge": ("#27323C", "#0C1014"),
         "link": ("#4B5966", "#7C8A97"),
         "shine": ("#7D8B98", "#B3BFCA"),

@@ -1,4 +1,4 @@
-"""The words above a panel of curves: limits, jumps, greatest values."""
+"""The text above a panel of curves: limits, jumps, greatest values."""
 
 from collections.abc import Iterator, Sequence
 

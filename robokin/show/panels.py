@@ -39,8 +39,8 @@ WORDS = {"q": ("angle", "position"), "v": ("speed", "speed"), "a": ("acceleratio
 class Panel:
     """One panel of a figure.
 
-    heading  the words above it, wrapped when its width is known
-    labels   [(words, limit, 1 for above it or -1 for below it)] of the limits that it shows;
+    heading  the text above it, wrapped once its width is known
+    labels   [(text, limit, 1 for above it or -1 for below it)] of the limits that it shows;
              they are placed later
     facts    its sentences in the alt text
     """
@@ -53,7 +53,7 @@ class Panel:
 
 def without_spikes(recording: Recording, kind: str, values: Floats) -> Floats:
     """Return the caller's speeds or accelerations (samples, n) with NaN in place of the spikes that
-    a differentiated jump leaves: values beside a jump that exceed all others by more than half.
+    a differentiated jump leaves: values next to a jump that exceed all others by more than half.
     """
     beside = np.zeros(values.shape, dtype=bool)
     for jump in _jumps(recording, kind):
@@ -91,7 +91,7 @@ def draw_panel(
     ax.grid(color=PANEL_GRID, linewidth=0.8)
     ax.set_axisbelow(True)
     ax.tick_params(labelsize=9, color=SOFT, length=3)
-    alone = drawn.shape[1] == len(joints)  # otherwise there are two columns of panels
+    alone = drawn.shape[1] == len(joints)  # if False, there are two columns of panels
     ax.xaxis.set_major_locator(MaxNLocator(8 if alone else 4, steps=[1, 2, 5, 10]))
     steps = [1, 1.5, 3, 4.5, 9, 10] if unit_text == "°" else [1, 2, 5, 10]
     ax.yaxis.set_major_locator(MaxNLocator(5, steps=steps))
@@ -182,7 +182,7 @@ def near_limits(
     return shown
 
 
-# --- What a panel shows ---------------------------------------------------------------------------
+# --- Limits, range and jumps of a panel -----------------------------------------------------------
 
 
 def _limits(recording: Recording, kind: str, joints: Ints, size: float) -> Floats:
@@ -205,7 +205,7 @@ def _past(recording: Recording, kind: str, joints: Ints) -> Bools:
 
 def _view(values: Floats, kind: str) -> tuple[float, float]:
     """The lowest and highest value of the panel: the range of the curves and a margin, but never so
-    small that it magnifies the noise of a constant.
+    small that it magnifies the noise of a constant curve.
     """
     finite = values[np.isfinite(values)]
     low, high = (finite.min(), finite.max()) if len(finite) else (0.0, 0.0)
@@ -245,7 +245,7 @@ def _jumps(recording: Recording, kind: str) -> list[Jump]:
 
 
 def _write_limits(panel: Panel) -> None:
-    """Write the words beside each limit line, inside or beyond it, where it covers the curves
+    """Write the text next to each limit line, inside or beyond it, where it covers the curves
     least.
     """
     ax = panel.ax

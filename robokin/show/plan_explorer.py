@@ -1,9 +1,9 @@
 """The explorer of plans: an arm of three levers with a target and an obstacle to drag.
 
-The page draws, and a kernel plans: see `live`. Beside the plane is the cube of all postures. It
+The page draws, and a kernel plans: see `live`. Next to the plane is the cube of all postures. It
 shows the body of forbidden postures, and a breadth-first search past it to the curve of the
 postures that reach the target. The cube has steps of `STEP`, for display only;
-`robokin.jobs.obstacles.plan` searches in finer ones.
+`robokin.jobs.obstacles.plan` searches in finer steps.
 """
 
 from collections.abc import Mapping
@@ -28,9 +28,9 @@ from .palette import ALARM, INK, JOINT_STYLES, PALE, SOFT
 from .things import Mark
 from .twin import arm_data
 
-STEP = 12 * deg  # between neighbouring postures of the cube
-MOMENTS = 41  # number of postures of a motion that the page gets
-FORBIDDEN, AWAY = 255, 254  # cells of the cube: too near the obstacle; free, but not reached
+STEP = 12 * deg  # step between neighbouring postures of the cube
+MOMENTS = 41  # number of postures of a motion in the page data
+FORBIDDEN, AWAY = 255, 254  # values of cells: too near the obstacle; free, but not reached
 WAYS = ("the plan", "two via points", "direct")
 UNCHECKED = {WAYS[1]: "via points", WAYS[2]: "direct"}  # the names that `unchecked_path` uses
 TITLE = "From K to K1, past an obstacle H"
@@ -63,8 +63,8 @@ def plan_explorer(
     """Show the start K, the target K1 and the obstacle H to drag, and the distance that all levers
     must keep from H (a seventh of a lever at first). A kernel answers every move with the result of
     `plan`: the path and the reason for it, the area that the levers sweep, and where they come
-    nearest to H; or with what a motion by two via points or the direct motion would do. The search
-    can be played in the cube of postures, the motion in the plane.
+    nearest to H; or with the result of a motion by two via points or of the direct motion. The
+    search can be played in the cube of postures, the motion in the plane.
 
     posture (3,) in radians is the start; target and obstacle (2,) are in metres. ValueError:
     arguments that `plan` refuses. TypeError: an arm without three levers.
@@ -93,7 +93,7 @@ def plan_explorer(
     )
 
 
-# --- What the kernel answers ----------------------------------------------------------------------
+# --- The kernel's answer --------------------------------------------------------------------------
 
 
 def _answer(arm: ThreeLeverArm, question: Question) -> Answer:
@@ -101,8 +101,8 @@ def _answer(arm: ThreeLeverArm, question: Question) -> Answer:
 
     verdict, words  the answer in a sentence; the reason, in the words of `plan`
     way, kept       `way` of the plan; whether the path shown keeps the distance
-    path            (k, 3) postures; the start alone if the arm stays
-    moments         (MOMENTS, 3) postures along the path, twice the start if the arm stays
+    path            (k, 3) postures; only the start if the arm does not move
+    moments         (MOMENTS, 3) postures along the path; the start twice if the arm does not move
     via             (k, 2) the gripper's via points
     nearest         where the levers come nearest to H: [the place on the lever, words]
     direct          the quadrilaterals AK and BA of the direct motion and a sentence about them;
@@ -180,8 +180,8 @@ def _direct(arm: ThreeLeverArm, start: Floats, target: Floats, H: Floats) -> dic
 def _cube(
     arm: ThreeLeverArm, start: Floats, K1: Floats, H: Floats, distance: float
 ) -> tuple[Any, int, Floats]:
-    """The `coarse_search` for the page: the cube (n, n, n), the number of steps in which the search
-    reaches the target's curve (or ends without it), and the curve (k, 3).
+    """The result of `coarse_search` for the page: the cube (n, n, n), the number of steps in which
+    the search reaches the target's curve (or ends without reaching it), and the curve (k, 3).
     """
     steps, free, curve = coarse_search(arm, start, K1, H, distance, STEP)
     reached = steps < NEVER
@@ -189,7 +189,7 @@ def _cube(
     return cube.astype(np.uint8), int(steps.max(initial=0, where=reached)), curve
 
 
-# --- What the page gets ---------------------------------------------------------------------------
+# --- Page data ------------------------------------------------------------------------------------
 
 
 def _page(arm: ThreeLeverArm, first: Question, known: Plan, summary: str) -> PlanPage:
@@ -221,7 +221,7 @@ def _page(arm: ThreeLeverArm, first: Question, known: Plan, summary: str) -> Pla
 
 
 def _picture(arm: ThreeLeverArm, first: Question, answer: Answer, alt: str) -> plots.Figure:
-    """Draw the plane, and the cube beside it."""
+    """Draw the plane, and the cube next to it."""
     fig = plots.figure(alt, width=4.4, height=2.1)
     blue, orange, green = (style["color"] for style in JOINT_STYLES[:3])
     plane, cube = fig.add_axes((0, 0, 0.58, 0.9)), fig.add_axes((0.6, 0, 0.4, 0.9))

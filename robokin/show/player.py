@@ -1,4 +1,4 @@
-"""The player: an arm that moves beside its curves, in any browser, without a kernel or a network.
+"""The player: an arm that moves next to its curves, in any browser, without a kernel or a network.
 
 `animate` computes everything once, at full resolution, and stores compact numbers in the page:
 joint values, speeds and accelerations of about a hundred samples, and the table of greatest values
@@ -83,7 +83,7 @@ def animate(
              has a menu
     points   places to mark: a list or a dict of name -> (x, y, z); circles the same with (centre,
              radius): spheres, or discs if the arm is planar. In metres and base coordinates.
-    floor    the floor is at height 0 and hides what is below it; by default it is under everything
+    floor    the floor is at height 0 and hides what is below it; by default it is below everything
     bases    the places of several arms in one picture: (arms, 2), x and y in m; targets,
              points, circles and faces are then in coordinates of the floor. Named points
              can label the arms
@@ -93,15 +93,15 @@ def animate(
     things   anything else to draw, of the kinds in `robokin.show.things` or of your own kinds
     watch    the panel that is large: "q", "v", "a", or the name of a quantity; None: the first
              quantity or, without one, q. The reader can choose another one
-    joints   the joints to watch, counted from one; the curves of the others are faint. None: all
+    joints   the joints to watch, counted from one; others have faint curves. None: all joints
     quantities  numbers with a panel of their own, such as a distance: a dict "name, unit" ->
              (samples,), or with the leading axes of q; for several arms a list with one for each
 
     Points, centres of circles and targets may move: a place is then (samples, 3), or with the
     leading axes of q (..., samples, 3) or, if it depends on slider and switch only, (..., 1, 3); a
-    target is a Transform with such a shape without the 3. NaN means that it is missing. No distance
-    from "via" is shown if it moves with time, or with `bases`. Several arms side by side share
-    targets, points, circles and faces.
+    target is a Transform with one of these shapes without the 3. NaN means that it is missing. No
+    distance from "via" is shown if it moves with time, or with `bases`. Several arms side by side
+    share targets, points, circles and faces.
 
     ValueError: shapes that do not match, fewer than three samples, times that do not increase,
     infinite numbers. TypeError: an arm or a target of another type.
@@ -147,7 +147,7 @@ class Player(Output):
             super().save(path)
 
 
-# --- What the page gets ---------------------------------------------------------------------------
+# --- Page data ------------------------------------------------------------------------------------
 
 
 def page_data(

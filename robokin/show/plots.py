@@ -116,7 +116,7 @@ def plot_postures(
     q        (samples, n): the whole path, as finely as it is known. The tool's path is drawn
              through all samples, the first and last posture boldly and up to seven between them
              faintly. NaN rows are left out. If the flange does not move (as in the rows of `ik`),
-             up to nine postures are drawn alike.
+             up to nine postures are drawn in the same style.
     targets  list of Transforms (one: target; two: start, goal; three: start, via, goal) or dict of
              name -> Transform
     alt      the alternative text, if the numbers alone do not say enough
@@ -139,8 +139,8 @@ def plot_postures(
     if moves:
         scene.trace(tool.translation)
         scene.triad(tool[first], length=0.07 * size, width=2.4)
-        # The names "first" and "last" are where the two postures differ most, on the half next to
-        # the base, since the tool has names of its own.
+        # The names "first" and "last" are where the two postures differ most, on the half of the
+        # arm next to the base, since the tool has labels of its own.
         half = slice(1, len(arm.links) + 1)
         ends = arm_points(arm, q[[first, last]])[:, half]
         where = np.linalg.norm(ends[1] - ends[0], axis=-1).argmax()

@@ -65,7 +65,7 @@ def _ours(name: str) -> bool:
     if os.path.islink(name) or not os.path.isfile(name):
         return False
     with open(name, "rb") as file:
-        return MARK.encode() in file.read(1000)  # in a GIF the mark follows the colours
+        return MARK.encode() in file.read(1000)  # in a GIF the mark follows the colour table
 
 
 def _write(name: str, content: bytes) -> None:

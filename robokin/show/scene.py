@@ -30,7 +30,7 @@ from .palette import (
     TRACE,
 )
 
-FAR, DOTS = 1e4, 200_000  # limits: pixels from the origin; points along a polyline
+FAR, DOTS = 1e4, 200_000  # maximum distance from the origin in px; maximum number of points
 
 
 class Scene:
@@ -63,11 +63,11 @@ class Scene:
         # the coordinate axes along the grid
         self.across = [k for k in range(3) if k != (like["flat"] if self.flat else 2)]
         self.ground = 0.0 if self.flat or "floor" not in like else like["floor"][0][2]
-        # points that the floor must be under
+        # points below which the floor must extend
         self.corners: list[Floats] = [np.zeros((1, 3))]
-        # for each label: its words, place, colour and size
+        # for each label: its text, place, colour and size
         self.labels: list[tuple[str, Floats, str, float]] = []
-        # centre and half the size, in pixels, of the labels that have a place: the first ones
+        # centre and half the size, in pixels, of each placed label, in the order of `labels`
         self.boxes: list[tuple[Floats, Floats]] = []
         # projected lines and their widths, which labels avoid
         self.drawn: list[tuple[Floats, float]] = []
@@ -125,7 +125,7 @@ class Scene:
         )
 
     def base(self, at: Floats | float = 0.0) -> None:
-        """Draw the base of the arm, at the origin or at (3,)."""
+        """Draw the base of the arm, at the origin or at a point (3,)."""
         angle = np.linspace(0, 2 * np.pi, 60)
         ring = (
             0.07
@@ -200,7 +200,7 @@ class Scene:
         self.ax.add_patch(Circle((x, y), radius, color=SOFT, alpha=0.45, lw=0, zorder=layers.BASE))
 
     def mark(self, centre: Floats, radius: float) -> None:
-        """Draw a point (3,), or a ball if the radius is not 0; draw nothing if it is NaN."""
+        """Draw a point (3,), or a ball if the radius is not 0; draw nothing if the point is NaN."""
         if not np.isfinite(centre).all():
             return
         if radius:
@@ -228,7 +228,7 @@ class Scene:
             )
 
     def label(self, words: str, point: Floats, color: str = INK, size: float = 9.5) -> None:
-        """Add words beside a point (3,); `place_labels` finds a free place for them."""
+        """Add text next to a point (3,); `place_labels` finds a free place for it."""
         where = self.project(point)
         if not any(
             words == other and np.allclose(where, there, rtol=0, atol=1e-6)
@@ -270,7 +270,8 @@ class Scene:
 
     def place_labels(self) -> None:
         """Put each label that has no place yet at the free place nearest to its point: away from
-        lines and other labels, inside the picture. `finish` calls it; a film, for each frame.
+        lines and other labels, inside the picture. `finish` calls it, and a film calls it for each
+        frame.
         """
         new = self.labels[len(self.boxes) :]
         if not new:
@@ -319,7 +320,7 @@ class Scene:
     def _fit(
         self, x0: float, x1: float, y0: float, y1: float, fit: tuple[float, float] | None
     ) -> None:
-        """Set limits that fill the axes with this range (metres) and leave room for words at the
+        """Set limits that fill the axes with this range (metres) and leave room for text at the
         edges (pixels).
         """
         figure: Any = self.ax.figure
@@ -341,8 +342,8 @@ class Scene:
         self.ax.set_ylim(y0 - spare / 2 - below / scale, y1 + spare / 2 + above / scale)
 
     def _floor(self) -> tuple[Floats, Floats, float]:
-        """Two opposite corners (2,) of the floor, which is under everything drawn and whole steps
-        wide, and the step of its grid.
+        """Two opposite corners (2,) of the floor, which is under everything drawn and a whole
+        number of steps wide, and the step of its grid.
         """
         if "floor" in self.like:
             return *np.array(self.like["floor"])[:, self.across], self.like["grid"]
@@ -423,7 +424,7 @@ def number(value: float, digits: int = 3) -> str:
 
 
 def dense(line: Floats, step: float = 4) -> Floats:
-    """Points along a polyline (k, 2), every few pixels, except far outside any picture."""
+    """Points along a polyline (k, 2), every `step` pixels, except far outside any picture."""
     line = np.clip(line[np.all(np.isfinite(line), axis=-1)], -FAR, FAR)
     if not len(line):
         return line

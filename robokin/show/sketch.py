@@ -1,4 +1,4 @@
-"""Labelled sketches in a plane, as a lecturer draws them: links, angles, lengths, points.
+"""Labelled sketches of a plane, such as a lecturer draws: links, angles, lengths, points.
 
 sketch = Sketch("Two levers and the angle between them.", title="q2 bends the elbow")
 sketch.levers([(0, 0), (0.3, 0.2), (0.5, 0.1)], ["O", "A", "K"])
@@ -22,7 +22,7 @@ NAMED = 11  # typographic points between a joint and its name
 
 
 class Sketch(Figure):
-    """A figure of one plane with true proportions to draw on. Points are (x, y) in metres, angles
+    """A figure of a plane with true proportions, to draw on. Points are (x, y) in metres, angles
     are in radians from the x axis, counter-clockwise; texts may contain formulas between dollar
     signs.
 
@@ -44,7 +44,7 @@ class Sketch(Figure):
         height: float = 4.6,
     ) -> None:
         self._unit = UNITS[choice(unit, "unit", tuple(UNITS))]
-        blank = figure(alt, width, height)  # checks the words and the sizes
+        blank = figure(alt, width, height)  # checks `alt` and the size of the figure
         super().__init__(blank.alt, figsize=blank.get_size_inches(), layout="constrained")
         self.ax = self.subplots()
         self.ax.set(
@@ -54,7 +54,7 @@ class Sketch(Figure):
         self.ax.set_title(plain(title, "title"), loc="left", fontweight="bold", color=INK)
 
     def levers(self, points: ArrayLike, names: Sequence[str] = (), *, dashed: bool = False) -> None:
-        """Draw links from point to point (k, 2) in the joints' colours, and the names of the
+        """Draw links between consecutive points (k, 2) in the joints' colours, and the names of the
         points. `dashed` is for another posture of the same arm.
         """
         corners = self._at(points, "points", 2)
@@ -89,7 +89,7 @@ class Sketch(Figure):
         self, centre: ArrayLike, start: float, end: float, name: str = "", *, radius: float = 0.05
     ) -> None:
         """Draw an arc around a point from the direction `start` to `end`, with an arrow at its end
-        and its name outside its middle. A thin line shows the direction of its start.
+        and its name outside the middle of the arc. A thin line shows the direction of its start.
         """
         first, last = floats([start, end], "start and end", 2)
         [at] = self._at(centre, "centre", 1)

@@ -2,7 +2,7 @@
 greedy tour and the best one.
 
 The page draws, and asks a kernel whenever something moves (see `live`). Points are numbered as in a
-`Task`, from 0. All words of the page are in this module.
+`Task`, from 0. All the text of the page is in this module.
 """
 
 import re
@@ -37,8 +37,8 @@ from .scene import Scene
 from .things import Mark
 from .twin import chain
 
-MOST = 12  # points: the page stays legible, and the best order takes about 10 ms
-WHILE_HELD = 10  # points: with more, the best order is computed only after the reader lets go
+MOST = 12  # maximum points: the page stays legible, and the best order takes about 10 ms
+WHILE_HELD = 10  # with more points, the best order is computed only after the reader lets go
 KINDS = ("visit", "collect")
 TOURS = ("greedy", "best")
 GREEDY, BEST = JOINT_STYLES[1]["color"], JOINT_STYLES[0]["color"]
@@ -70,8 +70,8 @@ def tour_explorer(task: Task) -> Live:
     `collect`) and the best one (`best_visit`) as paths of the tool, says what the greedy tour
     loses, and has a clock that moves the arm along either.
 
-    It asks the kernel: see `live`. The clock runs without one. TypeError: not a Task. ValueError:
-    more than MOST points.
+    It asks the kernel: see `live`. The clock also runs without a kernel. TypeError: not a Task.
+    ValueError: more than MOST points.
     """
     count = len(instance(task, Task, "task").points)
     if count > MOST:
@@ -129,7 +129,7 @@ def answered(question: Question, speeds: Floats) -> Answer:
     chain         the links of the arm, for the page's `frames`
     reached       whether each point is in the workspace; `start`: whether p0 is
     greedy, best  each tour: t (k,) and q (k, 3) at every stop, `order` and `times` of the points
-                  served, `cells` of the table; None if there is no tour, or not yet
+                  served, `cells` of the table; None if there is no tour, or none yet
     says          what the greedy tour loses; `notes`: the points out of reach, and where the tool
                   dips below the floor
     """
@@ -152,7 +152,7 @@ def answered(question: Question, speeds: Floats) -> Answer:
     results = {"greedy": collect(task) if kind == "collect" else visit(task)}
     on_axis = bool(np.isnan(task.q[0]).any())
     if kind == "collect" and not on_axis:
-        results["best"] = results["greedy"]  # greed is optimal: errata S0-r
+        results["best"] = results["greedy"]  # the greedy choice is optimal: errata S0-r
     elif kind == "visit" and not (question["held"] and len(served) > WHILE_HELD):
         results["best"] = best_visit(task)
     for name, result in results.items():
@@ -163,7 +163,7 @@ def answered(question: Question, speeds: Floats) -> Answer:
     return said | {"says": _says(task, results, among)}
 
 
-# --- What is said ---------------------------------------------------------------------------------
+# --- Sentences and tours for the page -------------------------------------------------------------
 
 
 def _says(task: Task, results: dict[str, Result], n: str) -> str:
@@ -236,12 +236,12 @@ def _number(x: float, form: str) -> str:
     return f"{x:{form}}".replace("-", "\N{MINUS SIGN}")
 
 
-# --- What the page gets ---------------------------------------------------------------------------
+# --- The scene and the still picture --------------------------------------------------------------
 
 
 def _scene(arm: Arm, task: Task) -> PageScene:
-    """A scene with room for the points and their surroundings, seen from the side on which they
-    are; the picture zooms out for anything outside.
+    """A scene with room for the points and their surroundings, seen from their side; the picture
+    zooms out for anything outside.
     """
     places = np.vstack([task.p0, task.points])
     ring = np.arange(0, 360, 30) * deg

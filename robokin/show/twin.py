@@ -144,7 +144,7 @@ class ThreeLeverInverse(TypedDict):
 
 
 class NoInverse(TypedDict):
-    """The inverse of an arm that geometries.js does not know."""
+    """The inverse of an arm whose geometry is not in geometries.js."""
 
     kind: None
 
@@ -253,7 +253,7 @@ def chain(links: Sequence[Link]) -> list[PageLink]:
 
 def inverse_data(arm: Arm) -> Inverse:
     """Return the numbers of an arm's inverse: `kind`, the name of the geometry in geometries.js
-    (None if it is unknown there), and the fields of the geometry by their names.
+    (None if it is not there), and the fields of the geometry by their names.
 
     turns  cosine and sine of the constant angles that the inverse adds to a direction: they
            decide which rows exist, and two languages may disagree on the last bit of a cosine

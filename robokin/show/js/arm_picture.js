@@ -11,7 +11,10 @@ import {triad} from "./triad.js";
 /** @import {Pen, Shown} from "./scene.js" */
 
 /** @typedef {ReturnType<typeof stood>} Stood  an arm in its place, and the pen that draws it */
-/** @typedef {[from: Point, to: Point, rod: boolean]} Limb  a piece; `rod`: in a prismatic joint */
+/**
+ * A straight piece of an arm; `rod`: whether it is in a prismatic joint.
+ * @typedef {[from: Point, to: Point, rod: boolean]} Limb
+ */
 
 /**
  * An arm at its base: a pen with its own coordinates, the data of Shown, its frames and limbs.
@@ -54,7 +57,7 @@ export function drawRods({g, cam, chain, joints, thick, scene, rods, past = []},
 }
 
 /**
- * Draws the arm, its whole path below it, and the path so far above it.
+ * Draws the arm, its whole path below it, and the part of the path already passed above it.
  * @param {Stood} one
  */
 export function drawStood(one) {

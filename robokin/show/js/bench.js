@@ -6,7 +6,7 @@ import {advance, atRest, pull, ramp, resting, run} from "./rotor.js";
 /** @import {MotorControl, PageMotors} from "./page.js" */
 /** @import {Motor, Run} from "./rotor.js" */
 
-const SLOW = 20; // times slower than real time, for a single pulse or a released rotor
+const SLOW = 20; // slow-motion factor for a single pulse or a released rotor
 const SHOWN = 8; // seconds that the display of a run takes
 const LONG = 2; // motor seconds: a rotor that does not come to rest is not shown for longer
 
@@ -25,7 +25,7 @@ export class Bench {
     this.sent = 0;
     this.held = false;
     this.since = LONG; // motor seconds since the reader touched the motor
-    this.last = 0; // time of the last picture, ms
+    this.last = 0; // time of the last frame, ms
     /** @type {?Run} */
     this.found = null;
   }
@@ -94,7 +94,7 @@ export class Bench {
     return this.motor.load > this.motor.torque * Math.sqrt(x * x + y * y);
   }
 
-  /** Reacts to a changed choice; with `other`, to another motor, which begins again. */
+  /** Reacts to a changed choice; with `other`, to another motor, which starts from rest. */
   change(other = false) {
     this.motor = this.built();
     this.found = null;
@@ -135,7 +135,7 @@ export class Bench {
     this.wake();
   }
 
-  /** Advances to the time of a picture; returns whether to draw another. @param {number} now  ms */
+  /** Advances to the time of a frame; returns whether to draw another. @param {number} now  ms */
   moment(now) {
     const passed = this.since === 0 ? 1 / 60 : Math.min(0.05, (now - this.last) / 1000);
     this.last = now;

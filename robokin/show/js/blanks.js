@@ -15,13 +15,13 @@ export const fill = (sentence, facts) =>
   sentence.replace(/\{(\w+)\}/g, (_, name) => String(facts[name]));
 
 /**
- * One decimal as in Python, which rounds a half to even.
+ * A number with one decimal, as in Python, which rounds a half to even.
  * @param {number} x
  */
 export const oneDecimal = x => ((4 * x) % 1 === 0 ? rint(10 * x) / 10 : x).toFixed(1);
 
 /**
- * A length in words, as in `in_words` of units.py.
+ * A length as text, as `in_words` in units.py returns it.
  * @param {number} x  metres
  */
 export const inWords = x => (x < 10 ? `${oneDecimal(x / 1e-3)} mm` : `${oneDecimal(x)} m`);

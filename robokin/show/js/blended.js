@@ -1,4 +1,4 @@
-// A blended motion, with all its curves and words.
+// A blended motion, with the data of its curves and sentences.
 
 import {follow, onward} from "./branches.js";
 import {ik, singularities} from "./geometries.js";
@@ -61,7 +61,7 @@ export function motionOf(data, state) {
 export function topsOf({arm, units, samples}, {t, q, missing, gaps, poseAt, times}, sampled) {
   if (gaps.size || missing[0]) return null;
   const step = t[1];
-  // NaN at a singularity, where free joints may have any value
+  // a posture, with NaN at a singularity, where free joints may have any value
   /** @type {(x: number) => number[]} */
   const posture = x => {
     const near = q[Math.min(Math.round(x / step), samples - 1)],
@@ -90,7 +90,7 @@ export const most = (rows, j) =>
 export const nearDecimals = unit => (unit.size < 1 ? 1 : 3);
 
 /**
- * The distance of the path from the via station in the shown unit, including between the samples.
+ * The distance of the path from the via station in the unit shown, also between the samples.
  * Infinity if there is no path.
  * @param {MotionData} data
  * @param {PagePose} via

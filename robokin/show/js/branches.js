@@ -1,4 +1,4 @@
-// The choice among the rows of `ik`, and the words about them, as in branches.py and verdicts.py.
+// The choice among the rows of `ik`, and sentences about them, as in branches.py and verdicts.py.
 
 import {TURN, wrapped} from "./kinematics.js";
 import {exists, leastTravel} from "./rows.js";
@@ -23,8 +23,8 @@ const choose = (arm, q, previous) => geometryOf(arm).choose(arm, q, previous);
 const room = ({limits, tolerances: {SLACK}}, j) => [limits[j][0] - SLACK, limits[j][1] + SLACK];
 
 /**
- * Which joints can take the posture q within their limits; a revolute one at q or at any number of
- * whole turns from it.
+ * Which joints of the posture q are within their limits; a revolute joint may be at q or any number
+ * of whole turns away from it.
  * @param {ArmData} arm
  * @param {number[]} q
  * @returns {boolean[]}
@@ -47,7 +47,7 @@ export const unwrapped = (arm, q, near) =>
   q.map((value, j) => (arm.prismatic[j] ? value : wrapped(value, near[j])));
 
 /**
- * As `unwrapped`, but inside the limits if such a value exists.
+ * Like `unwrapped`, but inside the limits if such a value exists.
  * @param {ArmData} arm
  * @param {number[]} q
  * @param {number[]} near
@@ -146,7 +146,7 @@ export function follow(arm, samples, row) {
 }
 
 /**
- * By how much joint j is past its limit, in words.
+ * By how much joint j is past its limit, as text.
  * @param {ClosedFormArm} arm
  * @param {number[]} q
  * @param {number} j

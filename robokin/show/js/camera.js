@@ -1,5 +1,5 @@
-// The camera of a page, from metres in base coordinates to CSS pixels on a canvas. (For figures see
-// camera.py and scene.py.)
+// The camera of a page, which converts metres in base coordinates to CSS pixels on a canvas. (For
+// figures see camera.py and scene.py.)
 
 import {dot, plus} from "./kinematics.js";
 

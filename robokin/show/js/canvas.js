@@ -1,4 +1,4 @@
-// Lines, shapes and words on a canvas, in the colours of the page; formatted numbers.
+// Lines, shapes and text on a canvas, in the colours of the page; formatted numbers.
 
 /** @typedef {[number, number]} Pixel  CSS pixels from the upper left corner of a canvas */
 /** @typedef {number[]} Point  x, y, z in metres, base coordinates */
@@ -51,7 +51,7 @@ export const colors = {
   joint6: "",
 };
 
-let family = "sans-serif"; // the font of words; `readColors` reads it, too
+let family = "sans-serif"; // the font of text; `readColors` sets it, too
 
 /** Reads the current colours of an element in .rk from the style sheet. @param {Element} place */
 export function readColors(place) {
@@ -61,7 +61,7 @@ export function readColors(place) {
     colors[name] = style.getPropertyValue(`--rk-${name}`).trim();
 }
 
-/** A font for words on a canvas. @type {(size: number, weight?: string | number) => string} */
+/** A font for text on a canvas. @type {(size: number, weight?: string | number) => string} */
 export const font = (size, weight = "") => `${weight} ${size}px ${family}`;
 
 /** The colour of a joint. @param {number} j from 0 */
@@ -80,8 +80,8 @@ export const clear = (color, share) =>
 
 /**
  * The cleared context of a canvas, sized for its place on the page at the screen's resolution (at
- * most two by two device pixels per CSS pixel); null if the canvas currently has no size, and then
- * it keeps its picture.
+ * most two by two device pixels per CSS pixel); null if the canvas currently has no size, in which
+ * case it keeps its picture.
  * @param {HTMLCanvasElement} canvas
  * @returns {?[Context, number, number]} context, width and height
  */
@@ -102,7 +102,7 @@ export function prepared(canvas) {
 }
 
 /**
- * Replaces the still picture by a frame, unless one of its canvases cannot be drawn on.
+ * Replaces the still picture with a frame, unless one of its canvases cannot be drawn on.
  * @param {HTMLElement} root
  * @param {HTMLElement} frame
  * @param {...HTMLCanvasElement} canvases
@@ -189,7 +189,7 @@ export const spot = (g, [x, y], radius, fill, edge = colors.paper, width = 1.5) 
   shape(g, () => g.arc(x, y, radius, 0, 2 * Math.PI), fill, edge, width);
 
 /**
- * Writes words with an outline, readable over lines.
+ * Writes text with an outline, so that it is readable over lines.
  * @param {Context} g
  * @param {string} text
  * @param {number} x
@@ -221,7 +221,7 @@ export const number = (x, decimals) =>
     .replace("-", "\u2212");
 
 /**
- * Whether a box [left, top, width, height] overlaps one of several.
+ * Whether a box [left, top, width, height] overlaps one of several others.
  * @param {Box} box
  * @param {Box[]} boxes
  */
@@ -229,7 +229,7 @@ export const hit = ([x, y, w, h], boxes) =>
   boxes.some(([ox, oy, ow, oh]) => x < ox + ow && ox < x + w && y < oy + oh && oy < y + h);
 
 /**
- * The numbers of columns and rows into which `count` pictures are arranged in this width.
+ * The numbers of columns and rows into which `count` pictures are arranged at this width.
  * @param {number} count
  * @param {number} width
  * @returns {[number, number]}

@@ -15,7 +15,7 @@ const TICKS = 400,
 /** @typedef {ReturnType<typeof runningClock>} Clock */
 
 /**
- * @param {?{play: string, pause: string}} [names]  what the button says; by default it has an icon
+ * @param {?{play: string, pause: string}} [names]  the button text; by default it has an icon
  */
 export function clockRow(names = null) {
   const icon = element("span"),

@@ -3,7 +3,7 @@
 import {control} from "./elements.js";
 
 /**
- * @param {Record<string, string>} words  what the button says: `copy`, and `copied` once it has
+ * @param {Record<string, string>} words  the text of the button: `copy`, and `copied` once it has
  *   copied
  * @param {() => string} text
  */
@@ -14,8 +14,8 @@ export function copyButton(words, text) {
     try {
       await navigator.clipboard.writeText(text());
     } catch {
-      // a page from a file may not write to the clipboard: copy in the old way or, if that is
-      // forbidden too, let the reader copy
+      // a page from a file is not allowed to use the clipboard API: use the deprecated command or,
+      // if that fails too, let the reader copy
       area.value = text();
       button.after(area);
       area.select();

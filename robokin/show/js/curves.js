@@ -8,16 +8,16 @@ import {dashes, drawPanel, FAINT, strength} from "./panel.js";
 /** @import {Panel, Place, Times} from "./panel.js" */
 
 /**
- * Panels over one time axis. `large`: the index of the one to watch; `names`: of the arms, if there
- * are several.
+ * Panels over one time axis. `large`: the index of the one to watch; `names`: the names of the
+ * arms, if there are several.
  * @typedef {{panels: Panel[], large: number, names: string[]}} Curves
  */
 /** @typedef {ReturnType<typeof curvesView>} CurvesView */
 /** @typedef {{text: string, color: string, width: number, dash: number[]}} Entry  of a legend */
 
 const HEAD = 22, // px above a plot, for the name of its panel
-  LEAST = 34, // px of a small plot
-  LARGE = 182; // px of the large plot
+  LEAST = 34, // px: the height of a small plot
+  LARGE = 182; // px: the height of the large plot
 
 /**
  * Draws panels.
@@ -72,8 +72,8 @@ export function curvesView(canvas, patterns) {
 
 /**
  * [index, height of the plot] of the panels for which there is room: always the large one, which
- * gets at least half, and as many of the others as fit, the first ones first. Without a large one
- * (-1) all are alike.
+ * gets at least half, and as many of the others as fit, from the first one on. Without a large one
+ * (-1) all have the same height.
  * @param {number} count
  * @param {number} large
  * @param {number} room
@@ -109,7 +109,7 @@ function tellTimes(g, [first, step, count, decimals], [t0, t1], x, y) {
 }
 
 /**
- * The width of the numbers beside the panels.
+ * The width of the numbers next to the panels.
  * @param {Context} g
  * @param {Panel[]} panels
  */
@@ -123,7 +123,7 @@ function widest(g, panels) {
 }
 
 /**
- * The joints, and the arms if there are several.
+ * The legend of the joints, and of the arms if there are several.
  * @param {number[][]} patterns
  * @param {Panel[]} panels
  * @param {string[]} names

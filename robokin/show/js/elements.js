@@ -1,10 +1,10 @@
-// Elements of a page, and the places that wait for a view.
+// Elements of a page, and the search for those that wait for a view.
 
 /** @typedef {Record<string, string | number>} Attributes */
 
 /**
- * The places in the page that wait for this view. Each is returned only once; a page may have two
- * places for the same view.
+ * The elements of the page that wait for this view. Each is returned only once; a page may have two
+ * of them for the same view.
  * @param {string} id
  * @returns {HTMLElement[]}
  */
@@ -43,7 +43,7 @@ export const control = (tag, attributes, ...children) =>
   element(tag, {"data-lm-suppress-shortcuts": "true", ...attributes}, ...children);
 
 /**
- * A menu. Its value is the index of a text.
+ * A menu. Its value is the index of the chosen text.
  * @param {string} name
  * @param {string[]} texts
  */

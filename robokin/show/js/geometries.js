@@ -48,8 +48,9 @@ const opposite = q => (q < 0 || Object.is(q, -0) ? q + Math.PI : q - Math.PI);
 // --- Three joints that place a point: `Elbow` ----------------------------------------------------
 
 /**
- * For front/back and elbow, as in Elbow.solve: null, or {q, plane, ahead} with the joint values and
- * the directions (cosine, sine) of the arm's plane and of the forearm's elevation.
+ * For each pair of flags (front/back, elbow), as in Elbow.solve: null, or {q, plane, ahead} with
+ * the joint values and the directions (cosine, sine) of the arm's plane and of the forearm's
+ * elevation.
  * @param {ArmOf<ElbowInverse | WristInverse>} arm
  * @param {number[]} place
  * @returns {(?ElbowRow)[]}
@@ -264,8 +265,8 @@ const scara = {
 };
 
 /**
- * The vector from the base to the tip of two links. -0 becomes 0: atan2 distinguishes them, a point
- * does not.
+ * The vector from the base to the tip of two links. -0 becomes 0, since atan2 distinguishes them
+ * although the point is the same.
  * @param {TwoLinkInverse} geometry
  * @param {number[]} place
  * @returns {Pair}

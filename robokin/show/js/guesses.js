@@ -3,9 +3,9 @@
 
 /** @typedef {[string, string, string]} Made  a prediction, the choice, and its time */
 /**
- * What a question sends with the event "robokin-guess", which the hub that takes it cancels.
- * `path`: that of the notebook, "" or null if the page does not contain it. `tell` is called once:
- * without an argument, or with the reason for a failure.
+ * The detail of the event "robokin-guess" of a question; the hub that handles the event cancels it.
+ * `path`: the path of the notebook, "" or null if the page does not contain it. `tell` is called
+ * once: without an argument, or with the reason for a failure.
  * @typedef {{path: ?string, guesses: Made[], tell: (error?: string) => void}} Offer
  */
 /**

@@ -21,12 +21,12 @@ export const reachOf = camera => (matchMedia("(pointer: coarse)").matches ? 84 :
 /**
  * @typedef {object} Handle
  * @property {string} id
- * @property {string} name  what a screen reader says: "target along x"
+ * @property {string} name  its name for a screen reader: "target along x"
  * @property {string} look  the class of the button: rk-free, rk-arrow, rk-arc or rk-joint
  * @property {string} [mark]  a letter on it
  * @property {Color} [color]  a colour name of palette.py
  * @property {(camera: Camera) => Point} at  its place
- * @property {() => string} value  its current value, in words
+ * @property {() => string} value  its current value, as text
  * @property {(camera: Camera) => Drag} grab  called when it is grabbed; returns a function that is
  *   called with the displacement of the pointer since then
  * @property {(right: number, up: number, big: boolean) => void} step  reacts to an arrow key
@@ -184,7 +184,7 @@ function apart([x, y], taken, room) {
  * A drag that changes one number whose handle moves along a curve: the component of the pointer's
  * motion along the curve's direction on the screen, updated as the handle moves.
  * @param {Camera} camera
- * @param {(value: number) => Point} place  where the handle is at a value
+ * @param {(value: number) => Point} place  the place of the handle for a value
  * @param {number} value  its value at the start
  * @param {number} step  a small change of the value
  * @returns {(dx: number, dy: number) => number}  the value after this displacement of the pointer
@@ -239,7 +239,7 @@ export function squareTo(axis) {
 
 /**
  * The place of the handle of joint i: on the part that it moves or, if that is short, on a knob
- * beside it.
+ * next to it.
  * @param {PageLink[]} chain
  * @param {number[]} q
  * @param {number} i

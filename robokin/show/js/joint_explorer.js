@@ -1,5 +1,5 @@
-// The joint explorer: the reader drags joints. All words and the data of the arm come from Python
-// (page.py: JointPage).
+// The joint explorer: the reader drags joints. All text and the arm data come from Python (page.py:
+// JointPage).
 
 import {distance_from_singularity, fk, origin, quaternion} from "./kinematics.js";
 import {singularities} from "./geometries.js";
@@ -21,7 +21,7 @@ import {ellipsoidOf, degrees, inUnits, rollPitchYaw} from "./turns.js";
 /** @typedef {JointPage} JointExplorer */
 
 /**
- * Builds the view in every place that waits for this id.
+ * Builds the view in every element that waits for this id.
  * @param {string} id
  * @param {JointExplorer} data
  */
@@ -83,7 +83,7 @@ function jointExplorer(stage, data) {
 const limited = ([low, high], value) => Math.min(Math.max(value, low), high);
 
 /**
- * The handle of joint j, a ring.
+ * The handle of joint j, which is a ring.
  * @param {JointExplorer} data
  * @param {State} state
  * @param {number} j
@@ -125,7 +125,7 @@ function jointHandle({arm, words, units, controls, q: home}, state, j) {
 }
 
 /**
- * The flange in numbers.
+ * The cells of the table: the numbers of the flange.
  * @param {JointExplorer} data
  * @param {number[]} q
  */
@@ -145,7 +145,7 @@ function cells({arm, unit, rows}, q) {
 }
 
 /**
- * The singularities of the posture, in words.
+ * The singularities of the posture, as text.
  * @param {JointExplorer} data
  * @param {number[]} q
  */

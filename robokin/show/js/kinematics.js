@@ -3,7 +3,7 @@
 // arms/arm.py and arms/dexterity.py.
 //
 // A pose is {rotation, place} (target "Transform"), {place, angle} ("ScaraPose") or {place}
-// ("point"). An arm is the result of `arm_data` in twin.py; the scripts contain no data of arms.
+// ("point"). An arm is the result of `arm_data` in twin.py; the scripts contain no arm data.
 
 /** @import {ArmData, Inverse, PageLink, PagePose, With} from "./page.js" */
 
@@ -129,7 +129,7 @@ export function rint(x) {
 }
 
 /**
- * The angle nearest to `near` that differs from this one by whole turns.
+ * The angle nearest to `near` that differs from `angle` by whole turns.
  * @param {number} angle
  * @param {number} [near]
  * @returns {number}
@@ -150,7 +150,7 @@ export const product = ([aw, ax, ay, az], [bw, bx, by, bz]) => [
 ];
 
 /**
- * The transform of a rotation and a place.
+ * The transform with this rotation and this place.
  * @param {number[]} rotation  w, x, y, z
  * @param {number[]} [place]
  * @returns {number[]}  12 numbers

@@ -1,4 +1,4 @@
-// Labels beside their points.
+// Labels next to their points.
 
 import {font, hit, write} from "./canvas.js";
 
@@ -7,7 +7,7 @@ import {font, hit, write} from "./canvas.js";
 /** @typedef {{text: string, at: Pixel, color: string, weight?: string}} Label */
 
 /**
- * Writes each label beside its point, where it covers other labels, lines and the edge least.
+ * Writes each label next to its point, where it covers other labels, lines and the edge least.
  * @param {Context} g
  * @param {Label[]} labels
  * @param {Pixel[]} taken
@@ -21,7 +21,7 @@ export function placeLabels(g, labels, taken, [left, top, width, height]) {
     const w = g.measureText(label.text).width + 4,
       h = 16,
       [px, py] = label.at;
-    let best = [NaN, NaN, NaN]; // its cost, left and top
+    let best = [NaN, NaN, NaN]; // the lowest cost, and its left and top
     for (const gap of [5, 14, 26, 40])
       for (let k = 0; k < 12; k++) {
         const c = Math.cos((k * Math.PI) / 6),

@@ -151,8 +151,8 @@ export function withLevers(arm, levers) {
 }
 
 /**
- * The lowest and the highest alpha that reach a point, NaN if none does. With `limited` gamma also
- * stays within 0 to 180 degrees.
+ * The lowest and the highest alpha with which the arm reaches a point, NaN if there is none. With
+ * `limited` gamma also stays within 0 to 180 degrees.
  * @param {ThreeLeverArm} arm
  * @param {{place: number[]}} point
  * @param {boolean} [limited]
@@ -210,8 +210,8 @@ function slopes(arm, KO, each) {
 
 /**
  * Six alphas: the first and the last at which each of the three sums of `slopes` is stationary.
- * (For equal levers only the first sum has a minimum; planar.py finds it in another way, accurate
- * to half the digits.)
+ * (For equal levers only the first sum has a minimum; planar.py finds it in a different way,
+ * accurate to half the digits.)
  * @param {ThreeLeverArm} arm
  * @param {number} KO
  * @param {number} low

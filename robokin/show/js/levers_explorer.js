@@ -1,6 +1,6 @@
 // The explorer of an arm that reaches a point with a family of postures. The reader drags the
 // point, chooses the free angle on the curve of its cost, and sets the lengths of levers with
-// sliders. All words and the data of the arm come from Python (page.py: LeversPage).
+// sliders. All text and the arm data come from Python (page.py: LeversPage).
 
 import {plus} from "./kinematics.js";
 import {alpha_range, family, least, withLevers} from "./levers.js";
@@ -33,7 +33,7 @@ import {point} from "./mark.js";
  */
 
 /**
- * Builds the view in every place that waits for this id.
+ * Builds the view in every element that waits for this id.
  * @param {string} id
  * @param {LeversExplorer} data
  */
@@ -108,7 +108,7 @@ function leversExplorer(stage, data) {
 }
 
 /**
- * The sliders of the point, of alpha and, for unequal levers, of their lengths.
+ * The sliders for the point, for alpha and, if the levers are unequal, for their lengths.
  * @param {Stage} stage
  * @param {LeversExplorer} data
  * @param {State} state
@@ -253,7 +253,7 @@ const pythonOf = ({code, unit}, {place, alpha, arm}) =>
  * @param {HTMLCanvasElement} canvas
  * @param {Record<string, string>} says
  * @param {?Costs} costs
- * @returns {?{alphaAt: (px: number) => number}}  the angle at a horizontal place
+ * @returns {?{alphaAt: (px: number) => number}}  the angle at a horizontal position
  */
 function drawCosts(canvas, says, costs) {
   const ready = prepared(canvas);

@@ -1,10 +1,10 @@
 // Questions to the kernel. A view is asleep until the model of a kernel finds it (waking.js). They
-// communicate by events on the view's element in the page.
+// communicate through events on the view's element in the page.
 
 import {element} from "./elements.js";
 
 /**
- * What replaces an array in an answer: its index among the buffers, or its data in base64.
+ * The replacement for an array in an answer: its index among the buffers, or its data in base64.
  * @typedef {{array: number | string, type: keyof typeof TYPES, shape: number[]}} StoredArray
  */
 /**
@@ -160,7 +160,7 @@ const TYPES = {uint8: Uint8Array, uint16: Uint16Array, int16: Int16Array, float3
  * "shape"} in their place.
  * @param {unknown} answer
  * @param {DataView<ArrayBuffer>[]} [buffers]
- * @returns {unknown}  Values in the place of each array
+ * @returns {unknown}  the answer with Values in place of each array
  */
 export function joinArrays(answer, buffers = []) {
   if (Array.isArray(answer)) return answer.map(each => joinArrays(each, buffers));

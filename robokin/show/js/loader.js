@@ -26,8 +26,8 @@ export function start(id, key, deflated, show) {
 }
 
 /**
- * Waits until one of the places of a view is at most half a window away. A long page would be busy
- * for seconds if all its views started together.
+ * Waits until one of the elements for a view is at most half a window away. A long page would be
+ * busy for seconds if all its views started together.
  * @param {string} id
  * @returns {Promise<void>}
  */
@@ -69,7 +69,7 @@ function run(text, nonce) {
 }
 
 /**
- * Keeps the still of the view, and gives the reason in its last line.
+ * Keeps the still picture of the view, and says in its last line why the view did not start.
  * @param {string} id
  * @param {unknown} error
  */

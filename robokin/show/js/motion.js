@@ -108,7 +108,7 @@ export const linear = duration => timeLaw(duration, x => x);
 /**
  * The law of constant acceleration, constant speed and constant deceleration.
  * @param {number} duration  seconds
- * @param {number} [ramp]  the share of each ramp in the duration, at most 0.5
+ * @param {number} [ramp]  each ramp as a fraction of the duration, at most 0.5
  * @returns {function(number): number}  s at t
  */
 export const trapezoidal = (duration, ramp = 0.25) =>

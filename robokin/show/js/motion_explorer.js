@@ -1,5 +1,5 @@
-// The motion explorer: a blended motion with stations to drag. All words and the data of the arm
-// come from Python (page.py: MotionPage).
+// The motion explorer: a blended motion with stations to drag. All text and the arm data come from
+// Python (page.py: MotionPage).
 
 import {fill} from "./blanks.js";
 import {most, motionOf, nearDecimals, topsOf} from "./blended.js";
@@ -31,13 +31,12 @@ import {frame} from "./target.js";
 /** @typedef {Stations & StartValues} Asked */
 /** @typedef {Asked & {time: number, playing: boolean}} State  `time` in seconds */
 /**
- * The greatest speeds and accelerations of a motion, including those between the samples if they
- * are `sure`.
+ * The greatest speeds and accelerations of a motion, including those between the samples if `sure`.
  * @typedef {{sure: boolean, values: number[][]}} Tops
  */
 
 /**
- * Builds the view in every place that waits for this id.
+ * Builds the view in every element that waits for this id.
  * @param {string} id
  * @param {MotionData} data
  */
@@ -251,7 +250,7 @@ const nearWords = ({words, unit}, distance) =>
     : "";
 
 /**
- * The flaws of the motion, in words.
+ * The flaws of the motion, as sentences.
  * @param {MotionData} data
  * @param {Motion} motion
  */

@@ -48,7 +48,7 @@ export function panelOf({arm, panels, units}, {gaps, jumps}, rows, order, now) {
 }
 
 /**
- * The limits that a curve passes or comes near to.
+ * The limits that a curve exceeds or comes near to.
  * @param {[number, number]} limits
  * @param {Float64Array} values
  * @param {number} line

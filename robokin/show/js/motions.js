@@ -11,7 +11,10 @@ import {recording, series, thingsAt} from "./recordings.js";
 /** @import {Recording} from "./recordings.js" */
 
 /** @typedef {ReturnType<typeof armIn>} Track  an arm in one motion */
-/** @typedef {{i: number, share: number}} Moment  a sample, and the share of the step to the next */
+/**
+ * A sample, and a fraction of the step to the next.
+ * @typedef {{i: number, share: number}} Moment
+ */
 
 /**
  * choose(value, choice): everything that changes with slider and switch; things(motion, sample,
@@ -62,7 +65,7 @@ function armIn(motion, {name, chain, gaps, via, rows}, recorded, samples, unit) 
     gaps: breaks,
     places: trace,
     trace: broken(trace, breaks),
-    /** The row of `ik` at a sample, in words. @type {(i: number) => string} */
+    /** The row of `ik` at a sample, as text. @type {(i: number) => string} */
     row: i => rows?.[motion]?.findLast(([first]) => first <= i)?.[1] ?? "",
     /** @type {(i: number, share: number) => number[]} */
     q: (i, share) => recorded.q(motion, i, share),
@@ -120,7 +123,7 @@ function jointPanel(data, order, motion, opening, recordings) {
 }
 
 /**
- * The limits without those that another arm has, too.
+ * The limits without those that an earlier arm has, too.
  * @param {Line[]} lines
  * @param {Panel["near"]} limits
  * @returns {Panel["near"]}
@@ -140,8 +143,7 @@ function limitsOf({limits: [low, high], speedLimits}, order, joint) {
 }
 
 /**
- * The marks of an arm's jumps: of position in all panels, of speed in that of speeds and
- * accelerations. The words of each stand in one panel.
+ * The marks of an arm's jumps in position and speed. The text of each jump is in only one panel.
  * @param {Page} data
  * @param {PageArm} arm
  * @param {number} order
@@ -160,10 +162,10 @@ function marksOf(data, {name, leaps, jumps}, order, motion) {
 /**
  * The panel of a quantity that belongs to no joint, for all arms.
  * @param {Page} data
- * @param {number} k  which quantity
+ * @param {number} k  the index of the quantity
  * @param {number} motion
  * @param {number} opening
- * @param {((motion: number) => Float64Array)[]} of  of each arm
+ * @param {((motion: number) => Float64Array)[]} of  the values of each arm
  * @returns {Panel}
  */
 function quantityPanel(data, k, motion, opening, of) {
@@ -186,7 +188,7 @@ function quantityPanel(data, k, motion, opening, of) {
 }
 
 /**
- * The joints of an arm that are past a limit of position now.
+ * The joints of an arm that are currently past a position limit.
  * @param {Panel} panel  of joint values
  * @param {number} arm
  */

@@ -1,5 +1,5 @@
 // The motor explorer: a stepper motor seen along its shaft, its phase table, and the response of
-// its rotor to pulses. Words, tables and poles come from Python (motors.py), the model is in
+// its rotor to pulses. Text, tables and poles come from Python (motors.py), the model is in
 // rotor.js.
 
 import {Bench} from "./bench.js";
@@ -21,7 +21,7 @@ import {degrees, radians} from "./turns.js";
 /** @typedef {ReturnType<typeof motorStage>} Stage */
 
 /**
- * Builds the view in every place that waits for this id.
+ * Builds the view in every element that waits for this id.
  * @param {string} id
  * @param {PageMotors} data
  */
@@ -179,7 +179,7 @@ function pulseRow(stage, bench, clock, says) {
 }
 
 /**
- * The inputs beside the picture.
+ * The inputs next to the picture.
  * @param {Stage} stage
  * @param {Bench} bench
  * @param {PageMotors} data
@@ -272,7 +272,7 @@ function menusOf(bench, {words: says, kinds, drives}, changed) {
 }
 
 /**
- * The phase table, made again for another motor. Choosing a row switches its windings on.
+ * The phase table, which is rebuilt for another motor. Choosing a row switches its windings on.
  * @param {Stage} stage
  * @param {Bench} bench
  * @param {PageMotors["words"]} says

@@ -180,7 +180,7 @@ function drawArrow({g, at}, angle, long) {
 }
 
 /**
- * Writes words on a coloured background that is light in both themes.
+ * Writes text on a coloured background that is light in both themes.
  * @param {Context} g
  * @param {string} text
  * @param {Pixel} place

@@ -1,4 +1,4 @@
-// The words and the code of the motor explorer about a motor and a run.
+// The sentences and the code of the motor explorer about a motor and a run.
 
 import {fill} from "./blanks.js";
 import {number} from "./canvas.js";
@@ -55,7 +55,7 @@ export function factTable(bench, {words: says, pulses, rules}) {
 }
 
 /**
- * The result of a run, in words.
+ * The result of a run, as a sentence.
  * @param {Bench} bench
  * @param {PageMotors} data
  */
@@ -76,7 +76,7 @@ export function outcome(bench, {words: says, pulses}) {
 }
 
 /**
- * The current state of the rotor, in words.
+ * The current state of the rotor, as text.
  * @param {Bench} bench
  * @param {PageMotors["words"]} says
  */

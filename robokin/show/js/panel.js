@@ -21,13 +21,13 @@ import {lineColor, panelWords, shade} from "./panel_words.js";
  * @property {Float64Array} values  over the times
  * @property {?{values: Float64Array, gaps: Set<number>}} opening  the curve of the opening motion,
  *   if this is another motion
- * @property {number} joint  from 0; -1: of a quantity that belongs to no joint
+ * @property {number} joint  from 0; -1 for a quantity that belongs to no joint
  * @property {number} arm  from 0
- * @property {number} axis  of the panel
- * @property {boolean} faint  not one to watch
+ * @property {number} axis  the index of its axis in the panel
+ * @property {boolean} faint  whether the line is not to be watched
  * @property {Set<number>} gaps  samples after which the line breaks
  * @property {?[low: number, high: number]} limits
- * @property {number} now  its present value
+ * @property {number} now  its current value
  */
 /**
  * @typedef {object} Panel
@@ -36,13 +36,13 @@ import {lineColor, panelWords, shade} from "./panel_words.js";
  * @property {Line[]} lines
  * @property {[line: number, side: number][]} near  the limits to show, side 0 low or 1 high
  * @property {Mark[]} marks
- * @property {string} [where]  in what size and theme it was when places for its words were found
+ * @property {string} [where]  the size and theme for which its text was placed
  * @property {Note[]} [words]
  */
-/** @typedef {{time: number, text: string}} Mark  a dashed vertical line with a text beside it */
+/** @typedef {{time: number, text: string}} Mark  a dashed vertical line with text next to it */
 /** @typedef {[text: string, place: Box, color: string, size: number, weight?: string]} Note */
 /** @typedef {ArrayLike<number>} Times  increasing times in s */
-/** @typedef {(value: number) => number} Place  where a time or a value is on the canvas */
+/** @typedef {(value: number) => number} Place  maps a time or a value to a place on the canvas */
 /** @typedef {[left: number, right: number, top: number, bottom: number]} Sides */
 /**
  * What a panel is drawn on: the canvas, the dashes of the joints' lines, the times and their
@@ -53,8 +53,8 @@ import {lineColor, panelWords, shade} from "./panel_words.js";
  */
 
 export const FAINT = 0.28; // opacity of a curve that is not to be watched
-const SMALL = 60; // px: a lower panel shows only the ends of its scale, and no words inside
-const PAST = 0.002; // a value past a limit by no more than this is rounding
+const SMALL = 60; // px: a panel of less height shows only the ends of its scale, and no text
+const PAST = 0.002; // an excess over a limit by no more than this is rounding
 
 /** The width of the lines of an arm. @type {(arm: number) => number} */
 export const strength = arm => [2.6, 1.4, 0.7][Math.min(arm, 2)];
@@ -131,7 +131,7 @@ function drawLines(ground, lines, ys) {
 }
 
 /**
- * Draws lines at the ticks of the first scale and of the time.
+ * Draws lines at the ticks of the first scale and of the time axis.
  * @param {Ground} ground
  * @param {Scale} scale
  * @param {Place} y

@@ -1,4 +1,4 @@
-// Words on a panel of curves for its marks and limits, placed where they cover the curves least.
+// Text on a panel of curves for its marks and limits, placed where it covers the curves least.
 
 import {colors, font, hit, jointColor, number} from "./canvas.js";
 
@@ -8,11 +8,11 @@ import {colors, font, hit, jointColor, number} from "./canvas.js";
 /** The colour of a line. @type {(line: Line) => string} */
 export const lineColor = ({joint}) => (joint < 0 ? colors.ink : jointColor(joint));
 
-/** Joint colours that are readable as text. @type {(color: string) => string} */
+/** A joint's colour, changed so that text in it is readable. @type {(color: string) => string} */
 export const shade = color => `color-mix(in srgb, ${color} 60%, ${colors.ink})`;
 
 /**
- * The words of a panel, placed once for each size and theme, and not in every picture.
+ * The text of a panel, placed once for each size and theme, not again in every picture.
  * @param {Context} g
  * @param {Panel} panel
  * @param {Place[]} ys  the height of a value, for each line
@@ -31,7 +31,7 @@ export function panelWords(g, panel, ys, times, x, sides) {
 }
 
 /**
- * The words of the marks, in at most three lines.
+ * The text of the marks, in at most three lines.
  * @param {Context} g
  * @param {Mark[]} marks
  * @param {Place} x
@@ -60,7 +60,7 @@ function noted(g, marks, x, [left, right, top]) {
 }
 
 /**
- * The words of the limits: beside their lines, clear of other words and almost clear of the curves.
+ * The text of the limits: next to their lines, clear of other text and almost clear of the curves.
  * At most three are shown; a limit for which there is no such place has only its band.
  * @param {Context} g
  * @param {Panel} panel
@@ -90,7 +90,7 @@ function limitWords(g, panel, ys, times, x, [left, right, top, bottom], notes) {
       taken = [...notes, ...found].map(([, place]) => place);
     /** @type {?Box} */
     let best = null;
-    let least = 16; // pixels of curves that the words may cover
+    let least = 16; // pixels of curves that the text may cover
     for (const y of side ? [at - 13, at + 2] : [at + 2, at - 13]) {
       if (y < top + 1 || y + 11 > bottom - 1) continue;
       const crossed = 20 * lines.filter(line => line > y && line < y + 11).length;

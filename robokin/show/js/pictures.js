@@ -1,4 +1,4 @@
-// When to draw the canvases of a view again.
+// Schedules the redraws of the canvases of a view.
 
 import {colors, readColors} from "./canvas.js";
 
@@ -9,7 +9,7 @@ import {colors, readColors} from "./canvas.js";
  * @param {HTMLElement} root
  * @param {HTMLCanvasElement[]} canvases
  * @param {(now: number) => boolean|void} draw  returns false if there was no room; it is called
- *   again as soon as there is
+ *   again as soon as there is room
  * @returns {() => void} ask
  */
 export function pictures(root, canvases, draw) {
@@ -19,7 +19,7 @@ export function pictures(root, canvases, draw) {
       asked = requestAnimationFrame(now => {
         asked = 0;
         if (!root.isConnected) return;
-        if (!colors.ink) readColors(canvases[0]); // asked before any canvas had a size
+        if (!colors.ink) readColors(canvases[0]); // `ask` was called before any canvas had a size
         if (draw(now) === false) watch();
       });
   };

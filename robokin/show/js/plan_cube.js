@@ -46,8 +46,8 @@ export function cubeView(name, ask) {
 }
 
 /**
- * The faces of the forbidden body by direction (axis and side): the cells [i, j, k] with such a
- * face.
+ * The faces of the forbidden body by direction (axis and side): the cells [i, j, k] that have such
+ * a face.
  * @param {Values} cube
  * @param {number} forbidden  the value of its cells
  */

@@ -1,5 +1,5 @@
 // The explorer of plans: the reader drags start, target and obstacle, a kernel plans (live.js), and
-// the answer is drawn in the plane and in the cube of postures. The words come from Python
+// the answer is drawn in the plane and in the cube of postures. The text comes from Python
 // (plan_explorer.py).
 
 import {fill} from "./blanks.js";
@@ -63,7 +63,7 @@ const STEPS = 9,
   MOMENTS = 16; // steps of search and motion per second
 
 /**
- * Builds the view in every place that waits for this id.
+ * Builds the view in every element that waits for this id.
  * @param {string} id
  * @param {PlanExplorer} data
  */
@@ -159,7 +159,7 @@ function pass(now) {
 }
 
 /**
- * The inputs beside the scene.
+ * The inputs next to the scene.
  * @param {Stage} stage
  * @param {PlanExplorer} data
  * @param {State} state

@@ -1,4 +1,4 @@
-// The player: recorded motions of arms in space beside their curves. page.py has its data.
+// The player: recorded motions of arms in space next to their curves. page.py has its data.
 
 import {number, replaceStill} from "./canvas.js";
 import {sceneOf, sceneView} from "./scene.js";
@@ -17,7 +17,7 @@ import {numberTable} from "./player_table.js";
 /** @typedef {ReturnType<typeof furniture>} Parts */
 
 /**
- * Builds the view in every place that waits for this id.
+ * Builds the view in every element that waits for this id.
  * @param {string} id
  * @param {Page} data
  */
@@ -83,7 +83,7 @@ function start(root, data) {
   tell(parts, data, shown, state.value);
 }
 
-// --- What is on the page -------------------------------------------------------------------------
+// --- The elements of the page --------------------------------------------------------------------
 
 /** @param {Page} data */
 function furniture(data) {
@@ -131,7 +131,7 @@ function furniture(data) {
 const labelsOf = ({panels, quantities}) => [...panels, ...quantities].map(({label}) => label);
 
 /**
- * A button that shows and hides a part of the page; on paper the part is always shown.
+ * A button that shows and hides a part of the page; in print the part is always shown.
  * @param {string} name
  * @param {HTMLElement} part
  */
@@ -152,7 +152,7 @@ function folding(name, part) {
 }
 
 /**
- * Sets the height of a scene that has the whole width to what its arms fill.
+ * Sets the height of a full-width scene to the height that its arms fill.
  * @param {Pick<Parts, "scene" | "curves">} parts
  * @param {Pick<ReturnType<typeof sceneView>, "height">} inSpace
  * @param {number} count  the number of pictures in the scene
@@ -168,8 +168,8 @@ function sized({scene, curves}, inSpace, count) {
 }
 
 /**
- * Keeps room for the sentences of every motion, so that the pictures stay in place while a slider
- * moves.
+ * Reserves room for the sentences of every motion, so that the pictures stay in place while a
+ * slider moves.
  * @param {Parts} parts
  * @param {Page} data
  */
@@ -208,7 +208,7 @@ function tell(parts, data, {arms, motion}, value) {
   parts.slider?.setAttribute("aria-valuetext", parts.value.textContent);
 }
 
-// --- A moment ------------------------------------------------------------------------------------
+// --- The state at one moment ---------------------------------------------------------------------
 
 /** @type {(times: number[], time: number) => Moment} */
 function momentAt(times, time) {

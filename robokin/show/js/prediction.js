@@ -10,7 +10,7 @@ const COPY = {copy: "Copy my guesses for the report", copied: "Copied"};
 const LETTERS = "abcdef";
 
 /**
- * Shows the question in every place that waits for this id.
+ * Shows the question in every element that waits for this id.
  * @param {string} id
  * @param {PageQuestion} data
  */

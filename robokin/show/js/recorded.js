@@ -46,7 +46,7 @@ function derivatives(q, t, gaps) {
 }
 
 /**
- * The jumps in the speeds between samples: changes far greater than the changes beside them. For
+ * The jumps in the speeds between samples: changes far greater than the changes next to them. For
  * each jump: the samples, the time, and the joints.
  * @param {number[][]} speeds  (samples - 1, n)
  * @param {number[]} t

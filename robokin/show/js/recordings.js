@@ -1,5 +1,5 @@
-// Recorded numbers: from the compact data of a page (page.py: Packed, PageWay, PageArm) to values
-// over time.
+// Converts recorded numbers from the compact data of a page (page.py: Packed, PageWay, PageArm) to
+// values over time.
 
 import {number} from "./canvas.js";
 import {unpacked} from "./unpacked.js";
@@ -50,11 +50,11 @@ export function recording(arm, motions, samples, {unit, nothing}) {
 }
 
 /**
- * A number over the samples, of each motion.
+ * The values of a number over the samples, for each motion.
  * @param {Packed} packed
  * @param {number} motions
  * @param {number} samples
- * @param {number} nothing  the whole number for no value
+ * @param {number} nothing  the integer that means "no value"
  * @returns {(motion: number) => Float64Array}
  */
 export function series(packed, motions, samples, nothing) {

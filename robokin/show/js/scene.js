@@ -15,7 +15,7 @@ import {compass} from "./triad.js";
 /** @import {Now} from "./recordings.js" */
 
 /**
- * A scene at the moment of one picture, and the unit of lengths on the page.
+ * The state of a scene in one picture, and the unit of length on the page.
  * @typedef {Omit<PageScene, "things"> & {things: Now<PageThing>[], unit: Unit}} Scene
  */
 /** @typedef {(g: Context, cam: Camera) => void} Draw */
@@ -33,7 +33,7 @@ import {compass} from "./triad.js";
  * @property {boolean} [framed]  show the frame of every link
  * @property {number[]} [past]  the joints that are past a limit
  * @property {string} [row]  the row of `ik` to which the posture belongs
- * @property {Draw} [under]  draws what else there is, below the arm
+ * @property {Draw} [under]  draws anything else below the arm
  * @property {Draw} [over]  the same above it
  */
 /** @typedef {ReturnType<typeof surroundings>} Space  the fixed surroundings of a scene */
@@ -65,7 +65,7 @@ import {compass} from "./triad.js";
 const KINDS = kinds;
 
 /**
- * The scene of a page, as yet without things.
+ * The scene of a page, still without things.
  * @param {{scene: PageScene, unit: Unit}} page
  * @returns {Scene}
  */
@@ -74,7 +74,7 @@ export const sceneOf = ({scene, unit}) => ({...scene, things: [], unit});
 /**
  * Draws arms in space.
  *
- * draw(view, arms, clock)   draws one picture: view [azimuth, elevation], arms Shown[], words for
+ * draw(view, arms, clock)   draws one picture: view [azimuth, elevation], arms Shown[], text for
  *                           the upper right corner. Returns whether there was room for it
  * cameras()                 the cameras of the last picture: one for each arm, or one if all arms
  *                           are in one picture; `to` projects a point to CSS pixels
@@ -135,7 +135,7 @@ export function sceneView(canvas, scene) {
 }
 
 /**
- * The numbers of columns and rows in which so many pictures are largest.
+ * The numbers of columns and rows in which `count` pictures are largest.
  * @param {Scene} scene
  * @param {Space} space
  * @param {number} count
@@ -157,7 +157,7 @@ function arranged(scene, space, count, width, height) {
 }
 
 /**
- * The part of a cell without the room for words at its edges: names above, the scale below.
+ * The part of a cell without the room for text at its edges: names above, the scale below.
  * @param {Box} cell
  * @returns {Box}
  */

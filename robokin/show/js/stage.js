@@ -57,7 +57,7 @@ export function stageOf(root, data) {
 }
 
 /**
- * The frame of an explorer: a picture with handles over it, a column of controls beside it, and
+ * The frame of an explorer: a picture with handles over it, a column of controls next to it, and
  * room below.
  *
  * run(answer)  from now on, calls `answer(now)` for the state to draw, once for every picture after
@@ -289,7 +289,7 @@ export function menu(name, texts, take) {
  * A check box.
  * @param {string} name
  * @param {() => void} take
- * @param {boolean} [on]  whether it is ticked at first
+ * @param {boolean} [on]  whether it is initially ticked
  */
 export function tick(name, take, on = false) {
   const box = control("input", {type: "checkbox"});

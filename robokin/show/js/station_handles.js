@@ -34,7 +34,8 @@ export function stationHandles(stage, state, data) {
 }
 
 /**
- * The common parts of both kinds of handles: the place in words, and the return home.
+ * The common parts of both kinds of handles: the place as text, and the reset to the original
+ * place.
  * @param {Held} held
  * @param {keyof Stations} name
  */

@@ -41,7 +41,7 @@ export function table(names, heads, widths, take) {
     /**
      * @param {Cell[][]} rows
      * @param {number} [chosen]
-     * @param {?boolean[]} [exists]  whether what a row describes exists; by default all do
+     * @param {?boolean[]} [exists]  for each row, whether its subject exists; by default all do
      */
     set(rows, chosen = -1, exists = null) {
       rows.forEach((texts, k) => {

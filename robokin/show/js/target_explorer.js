@@ -1,5 +1,5 @@
-// The target explorer: a target to drag, and all branches that reach it. All words and the data of
-// the arm come from Python (page.py: TargetPage).
+// The target explorer: a target to drag, and all branches that reach it. All text and the arm data
+// come from Python (page.py: TargetPage).
 
 import {distance_from_singularity, matrix, wrapped} from "./kinematics.js";
 import {ik, singularities} from "./geometries.js";
@@ -33,7 +33,7 @@ import {degrees, ellipsoidOf, inCode, radians, rotationOf} from "./turns.js";
  */
 
 /**
- * Builds the view in every place that waits for this id.
+ * Builds the view in every element that waits for this id.
  * @param {string} id
  * @param {TargetExplorer} data
  */

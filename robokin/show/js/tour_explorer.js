@@ -1,5 +1,5 @@
 // The explorer of tours: points to drag, the tours that a kernel computes (live.js), and a clock
-// that moves the arm along them and needs no kernel. The words come from Python (tour_explorer.py).
+// that moves the arm along them and needs no kernel. The text comes from Python (tour_explorer.py).
 
 import {number} from "./canvas.js";
 import {clockRow, runningClock} from "./clock.js";
@@ -62,7 +62,7 @@ import {point} from "./mark.js";
  */
 
 /**
- * Builds the view in every place that waits for this id.
+ * Builds the view in every element that waits for this id.
  * @param {string} id
  * @param {TourExplorer} data
  */
@@ -107,7 +107,7 @@ function tourExplorer(root, id, stage, data) {
     tell();
   });
 
-  let last = /** @type {Tour} */ (heard.tours.find(Boolean)).at(0); // at first there is a tour
+  let last = /** @type {Tour} */ (heard.tours.find(Boolean)).at(0); // the first answer has a tour
   stage.run(() => {
     clock.pass(performance.now());
     clock.tell();

@@ -11,7 +11,7 @@ import {fk, origin} from "./kinematics.js";
 /** @typedef {ReturnType<typeof toured>} Tour */
 
 const FINE = 0.05; // rad: step of the fastest joint between two points of a drawn path
-// colour-blind readers can tell these apart, also by their dashes
+// colour-blind readers can tell these colours apart, and the dashes differ, too
 /** @type {Record<TourName, Color>} */
 const COLORS = {greedy: "joint2", best: "joint1"};
 /** @type {Record<TourName, [width: number, dash?: number[]]>} */

@@ -1,4 +1,4 @@
-// The axes of a frame, and of the base in a corner.
+// Draws the axes of a frame, and the directions of the base's axes in a corner.
 
 import {colors, stroke, write} from "./canvas.js";
 import {dot, origin, plus} from "./kinematics.js";

@@ -97,7 +97,7 @@ export const inCode = (state, unit) => ({
 });
 
 /**
- * The semi-axes of the ellipsoid of tool velocities, scaled to be visible beside the arm.
+ * The semi-axes of the ellipsoid of tool velocities, scaled to be visible next to the arm.
  * @param {ArmData} arm
  * @param {number[]} q
  */

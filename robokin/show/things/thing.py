@@ -19,7 +19,7 @@ if TYPE_CHECKING:
 
 class PageWay(Packed):
     """Numbers in k columns that may change; `motions` or `samples` is 1 if the same numbers serve
-    all motions or all samples. A thing is not drawn at a moment at which one of its numbers is NaN.
+    all motions or all samples. A thing is not drawn while one of its numbers is NaN.
     """
 
     motions: int
@@ -56,7 +56,7 @@ class Way(Sealed):
         return one
 
     def page(self, kept: Ints | None) -> list[float] | PageWay:
-        """Return the page data; `kept` are the samples that the page gets."""
+        """Return the page data; `kept` are the samples that the page contains."""
         return self._packed(kept) if self.shape else rounded(self.rows)
 
     def fit(self, lead: tuple[int, ...], count: int) -> None:
@@ -92,11 +92,11 @@ class Thing(ABC):
 
     @abstractmethod
     def page(self, kept: Ints | None) -> "PageThing":
-        """Return the page data; `kept` are the samples of moving values that the page gets."""
+        """Return the page data; `kept` are the samples of moving values that the page contains."""
 
     @abstractmethod
     def seen(self, axis: float) -> Floats:
-        """Points (k, 3) of the whole motion, which place the camera; NaN is ignored. `axis` is the
+        """Points (k, 3) of the whole motion that the camera must see; NaN is ignored. `axis` is the
         length (m) of the axes of frames. (`seen` in a script gives the points of one moment; only
         scenes that grow ask for them.)
         """
