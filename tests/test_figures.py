@@ -80,7 +80,7 @@ def test_red_green_and_blue_axes_keep_their_hues_in_the_dark(browser, figures):
 # --- Width ----------------------------------------------------------------------------------------
 
 
-@pytest.mark.parametrize("kind", ["postures", "joints", "frames", "own"])
+@pytest.mark.parametrize("kind", ["postures", "frames", "own"])
 def test_text_of_figures_has_ten_pixels_on_a_phone_too(browser, figures, kind):
     fig = figures[kind]
     fig.canvas.draw()

@@ -12,7 +12,7 @@ import pytest
 from conftest import NODE, ROOT
 from test_player import unpacked
 
-from robokin.show import JOINT_STYLES, joiner, markup, page, palette
+from robokin.show import JOINT_STYLES, joiner, markup, palette
 from robokin.show.numbers import packed
 
 FOLDER = ROOT / "robokin" / "show" / "js"
@@ -115,7 +115,7 @@ def test_each_module_is_included_once_in_its_own_scope(modules):
         "export const all = () => [left(), twice(hidden)];\n",
         other="export const never = 1;\n",
     )
-    script = page.script("top")
+    script = joiner.script("top")
     assert script.count("const $base") == 1 and "words" not in script and "never" not in script
     assert run(script, "[$top.all(), Object.keys($top), $top.CSS]") == (
         '[[2,6],["Top","late","CSS","all"],"\\n  & p { margin: 0; }\\n"]'
@@ -143,7 +143,7 @@ def test_comments_are_removed_and_code_is_kept(modules, code, value):
     plain = run(text, "found")
     assert plain == value or value is None and "// " in plain
     modules(top=f"{text}export const all = () => found;\n")
-    assert run(page.script("top"), "$top.all()") == plain
+    assert run(joiner.script("top"), "$top.all()") == plain
 
 
 def test_a_compressed_script_adds_its_sheets_and_returns_its_module(modules):
@@ -198,7 +198,7 @@ def test_unterminated_literal_is_refused_with_file_and_line(modules):
     for text in ("const a = 'b;", "const a = `b${c;", "const a = `b;", "/* b", "let a = /b;"):
         modules(top=f"// words\n{text}\n")
         with pytest.raises(ValueError, match=r"top\.js, line 2: .* is not closed"):
-            page.script("top")
+            joiner.script("top")
 
 
 @pytest.mark.parametrize(
@@ -218,7 +218,7 @@ def test_unterminated_literal_is_refused_with_file_and_line(modules):
 def test_unsupported_import_is_refused_with_file_and_line(modules, text, message):
     modules(base="export const a = 1;\n", top=f"// words\n{text}\n")
     with pytest.raises(ValueError, match=message):
-        page.script("top")
+        joiner.script("top")
 
 
 def test_style_sheet_follows_those_of_imported_modules(modules):
@@ -263,7 +263,7 @@ def test_scripts_contain_no_style_sheets():
 
 
 def test_player_contains_only_used_modules_and_no_comments():
-    script = page.script("player")
+    script = joiner.script("player")
     assert not re.search(r"const \$(stage|handles|inverse|\w+_explorer) ", script)
     assert script.count("(() => {\n") >= 6 and "\n\n" not in script
     for path in SCRIPTS:

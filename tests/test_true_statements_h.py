@@ -9,7 +9,7 @@ from scipy.spatial.transform import Rotation
 from test_true_statements_c import flat, numbers, shown
 from test_true_statements_g import joints_of, place_of
 
-from robokin import ITMO6R, Quaternion, Transform, deg, mm
+from robokin import IRB140, ITMO6R, SCARA, Quaternion, ScaraPose, Transform, blend, deg, mm
 from robokin.course import book
 
 # --- Lab 06 ---------------------------------------------------------------------------------------
@@ -73,3 +73,65 @@ def test_the_inverse_that_searches_stops_less_than_1e_8_m_from_the_point():
         for p in points[(lengths > 1) & (lengths < 9)]
     ]
     assert 1e-9 < max(away) < 1e-8
+
+
+# --- Lab 03 ---------------------------------------------------------------------------------------
+
+
+def test_greatest_accelerations_of_both_corners_have_the_digits_shown():
+    """By central differences of fourth order, 2 ms apart, every 1 ms near the corner."""
+    row = IRB140.branch(+1, +1, -1)
+    shown_numbers = re.findall(
+        r"\(blend (\S+)\) (\S+) rad/s²", book.find("irb140_motion.p7", "predictions").view()
+    )
+    assert len(shown_numbers) == 8
+    start = Transform(Quaternion.from_angle_axis(90 * deg, (-1, 0, 0)), (0.2, 0.4, 0.2))
+    via = Transform(Quaternion.from_angle_axis(45 * deg, (0, 1, 0)), (0.65, -0.1, 0.8))
+    goal = Transform(Quaternion.from_angle_axis(90 * deg, (0, 1, 0)), (0.3, 0.3, 0.5))
+    weights = np.array([-1, 16, -30, 16, -1]) / (12 * 0.002**2)
+    for k, (share, told) in enumerate(shown_numbers):
+        corner = "quintic" if k % 2 else "parabola"
+        b = [0.05, 0.1, 0.15, 0.2][k // 2] / (0.75 if k % 2 else 1)
+        assert float(share) == pytest.approx(b, abs=6e-4)
+        inside = np.arange(10 - 10 * b + 0.02, 10 + 10 * b - 0.02, 0.001)
+        times = inside[:, None] + 0.002 * np.arange(-2, 3)
+        q = IRB140.ik(blend(start, via, goal, b, times / 20, corner=corner))[..., row, 2]
+        assert float(told) == pytest.approx(abs(q @ weights).max(), abs=6e-5)
+
+
+def test_a_class_of_joints_is_rounded_by_both_corners():
+    """The class that the lab proposes, with the line as it is printed there."""
+    (line,) = re.findall(r"returns `(Joints\(.*?)`, and round", flat("03", "deeper-own"))
+
+    class Joints:
+        def __init__(self, q):
+            self.q = q
+
+        def lerp(self, goal, s):
+            return eval(line, {"np": np, "Joints": Joints, "self": self, "goal": goal, "s": s})
+
+    ends = [Joints(np.array(q)) for q in ([0.0, 0], [1, 0], [1, 2])]
+    s = np.linspace(0, 1, 101)
+    for corner in ("parabola", "quintic"):
+        path = blend(*ends, 0.5, s, corner=corner).q
+        assert path.shape == (101, 2)
+        np.testing.assert_allclose(path[[0, -1]], [[0, 0], [1, 2]], atol=1e-12)
+        assert (np.linalg.norm(path - [1, 0], axis=1) > 0.1).all(), "it passes the corner"
+
+
+# --- Lab 05 ---------------------------------------------------------------------------------------
+
+
+def test_the_goal_straight_down_is_below_the_height_of_the_lift():
+    text = flat("05", "deeper-zones")
+    (x, y, z, angle) = numbers(
+        r"lower goal, `target\((\S+), (\S+), (\S+), (\S+)\)`, that lifts", text
+    )
+    assert "lifts the tool to 200 mm, moves over, and lowers it: three lines, two" in text
+    assert z < 200 and np.isfinite(SCARA.ik(ScaraPose(np.array([x, y, z]) * mm, angle * deg))).any()
+
+
+def test_nan_is_neither_less_nor_greater_but_unequal():
+    assert not math.nan < 1 and not math.nan > 1 and math.nan != 1
+    for path in book.OURS.glob("*/*.md"):
+        assert "comparison with NaN is always" not in path.read_text(encoding="utf-8"), path.name

@@ -98,7 +98,7 @@ EXPLORERS = {
 def test_explorer_fits_on_the_screen(page, tmp_path, view):
     opened(page, EXPLORERS[view](), tmp_path, curves=False)
     box = page.locator(".rk").bounding_box()
-    assert box["width"] > 880 and 440 < box["height"] <= 560
+    assert box["width"] > 880 and 400 < box["height"] <= 560
     canvas = page.locator(".rk canvas").first
     assert canvas.bounding_box()["height"] >= 220
     assert len(canvas.evaluate("canvas => canvas.toDataURL()")) > 9000, "the picture is empty"
