@@ -1,5 +1,5 @@
-"""Measures how near the levers come to the obstacle, and where it is; `planner` decides what is
-safe.
+"""Measurements of how near the levers come to the obstacle and where it is; `planner` decides what
+is safe.
 """
 
 from collections.abc import Callable
@@ -15,11 +15,11 @@ from .arguments import read_angles, read_obstacles, read_path, read_point, read_
 LEVERS = ("OB", "BA", "AK")
 TOLERANCE = 1e-6  # lever lengths: the accuracy of a clearance
 CLOSE = 1e-9  # lever lengths: `keeps` does not distinguish distances that differ by less
-WORK = 1_000_000  # pieces of motions, or postures of a grid, in one call: about 1 s
+WORK = 1_000_000  # greatest number of motion pieces, or grid postures, in one call: about 1 s
 PORTION = 50_000  # pieces measured at a time, to limit memory
 
 
-# --- Where is the obstacle? -----------------------------------------------------------------------
+# --- Location of the obstacle ---------------------------------------------------------------------
 
 
 def in_quadrilateral(
@@ -67,7 +67,7 @@ def locate(P: ArrayLike, Q: ArrayLike, from_P: float, from_Q: float) -> Floats:
     return P + from_P * np.concatenate([np.cos(q1), np.sin(q1)], axis=-1)
 
 
-# --- How near does the arm come? ------------------------------------------------------------------
+# --- Clearance of the arm -------------------------------------------------------------------------
 
 
 def distances(arm: ThreeLeverArm, q: ArrayLike, H: ArrayLike) -> Floats:
@@ -114,7 +114,7 @@ def keeps(arm: ThreeLeverArm, a: ArrayLike, b: ArrayLike, H: ArrayLike, distance
     return motions_keep(arm, a, b, H, distance).reshape(shape[:-1])
 
 
-# --- Versions without argument checks, and for moving obstacles -------------------------
+# --- Versions without argument checks, also for moving obstacles ----------------------------------
 
 
 def lever_distances(arm: ThreeLeverArm, q: Floats, H: Floats) -> Floats:
