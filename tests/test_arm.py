@@ -45,7 +45,7 @@ machines = pytest.mark.parametrize("machine", MACHINES, ids=repr)
 
 @machines
 @pytest.mark.parametrize("shape", SHAPES)
-def test_fk_equals_the_matrix_chain_of_the_document(machine, shape):
+def test_fk_matches_the_matrix_chain_of_the_document(machine, shape):
     q = random_joints(machine.arm, RNG, shape)
     T = machine.arm.fk(q)
     assert T.shape == shape
@@ -56,7 +56,7 @@ def test_fk_equals_the_matrix_chain_of_the_document(machine, shape):
 
 
 @machines
-def test_fk_at_home_equals_the_matrix_chain(machine):
+def test_fk_at_home_matches_the_matrix_chain(machine):
     n = len(machine.arm.links)
     assert np.allclose(
         machine.arm.fk([0] * n).as_matrix(), machine.chain([0] * n), rtol=0, atol=2e-16
@@ -335,7 +335,7 @@ PUBLISHED = {
 
 
 @pytest.mark.parametrize("name", PUBLISHED)
-def test_limits_and_speeds_equal_the_published_ones(name):
+def test_limits_and_speeds_match_the_published_ones(name):
     arm, limits, speeds = PUBLISHED[name]
     units = np.where(arm.prismatic, mm, deg)[:, None]
     assert arm.name == name

@@ -640,7 +640,7 @@ def test_degrees_cause_a_warning_and_long_motions_do_not():
     SCARA.fk([0.1, 0.2, 0.3, 90])  # metres
 
 
-def test_follow_of_a_batch_equals_single_motions():
+def test_follow_of_a_batch_matches_single_motions():
     """One motion is singular throughout, one begins late, one is missing."""
     s = np.linspace(0, 1, 30)[:, None]
     plain = np.array([0.1, 0.2, 0.3, 0.4, 0.5, 0.6]) + 0.5 * s

@@ -348,7 +348,7 @@ def _settled(page, player):
         before, seen = seen, _seen(player)
         if before == seen:
             return seen
-    pytest.fail("the picture does not come to rest")
+    pytest.fail("the picture keeps changing")
 
 
 def _sliders(player):

@@ -20,7 +20,7 @@ def joints_of(case):
 
 
 @cases
-def test_angles_equal_the_reference_cases(case):
+def test_angles_match_the_reference_cases(case):
     arm = loader_arm(case["A"], case["B"])
     row = arm.ik(case["p"])[arm.branch(+1, -1)]
     q = station_postures(arm, [case["p"]])[0]
@@ -70,7 +70,7 @@ def test_ik_contains_the_original_joints(A, B, shape):
 
 @pytest.mark.parametrize("x", [-1.0, 0.0, 1.0])
 @pytest.mark.parametrize("y", [-2.0, -0.0, 0.0, 2.0])
-def test_alpha_equals_the_nine_cells_of_table_1(x, y):
+def test_alpha_matches_the_nine_cells_of_table_1(x, y):
     alpha = station_postures(loader_arm(2, 1.5), [(x, y, 0.9)])[0, 0] / deg
     steep = np.degrees(np.arctan(2.0))
     table = {
@@ -140,7 +140,7 @@ def test_alpha_continues_by_the_shortest_turn():
         (0, 0, 0),
     ],
 )
-def test_shortest_turn_equals_hand_computed_values(start, goal, turn):
+def test_shortest_turn_matches_hand_computed_values(start, goal, turn):
     assert shortest_turn(start * deg, goal * deg) / deg == pytest.approx(turn)
 
 
@@ -166,7 +166,7 @@ def test_stretched_and_folded_arms_have_the_expected_angles(A, B):
 
 
 @lengths
-def test_angles_equal_the_formulas_of_the_document(A, B):
+def test_angles_match_the_formulas_of_the_document(A, B):
     rng = np.random.default_rng(5)
     p = rng.normal(size=(300, 3)) * [1, 1, 0.7]
     p[:, 2] = abs(p[:, 2])

@@ -118,13 +118,13 @@ def keeps(arm: ThreeLeverArm, a: ArrayLike, b: ArrayLike, H: ArrayLike, distance
 
 
 def lever_distances(arm: ThreeLeverArm, q: Floats, H: Floats) -> Floats:
-    """`distances` of postures q (..., 3) from H (..., 2)."""
+    """`distances` for postures q (..., 3) and H (..., 2)."""
     q = np.broadcast_to(q, (*np.broadcast_shapes(q.shape[:-1], H.shape[:-1]), 3))
     return np.moveaxis(_seen(arm, np.moveaxis(q, -1, 0), H)[0], 0, -1)
 
 
 def motion_clearances(arm: ThreeLeverArm, a: Floats, b: Floats, H: Floats) -> Floats:
-    """The `clearance` of n motions from postures a (n, 3) to b (n, 3): (n, 3).
+    """`clearance` for n motions from postures a (n, 3) to b (n, 3): (n, 3).
 
     H is (m, 1, 2) for m fixed obstacles, or (2, m, n, 2) for their places at the start and at the
     end of each motion, between which they move at constant velocity.
@@ -141,7 +141,7 @@ def motion_clearances(arm: ThreeLeverArm, a: Floats, b: Floats, H: Floats) -> Fl
 
 
 def motions_keep(arm: ThreeLeverArm, a: Floats, b: Floats, H: Floats, distance: float) -> Bools:
-    """`keeps` of n motions from postures a (n, 3) to b (n, 3): bool (n,). H is as for
+    """`keeps` for n motions from postures a (n, 3) to b (n, 3): bool (n,). H is as for
     `motion_clearances`.
     """
     a, b = np.broadcast_arrays(a, b)
