@@ -18,7 +18,7 @@ if TYPE_CHECKING:
     Floats: TypeAlias = NDArray[np.float64]
     Bools: TypeAlias = NDArray[np.bool_]
     Ints: TypeAlias = NDArray[np.int64]
-else:  # only a type checker needs them, and numpy.typing is slow to import
+else:  # only type checkers need these, and numpy.typing is slow to import
     ArrayLike = Any
     Floats = Bools = Ints = np.ndarray
 
@@ -49,8 +49,8 @@ class Sealed:
 
 
 def components(array: Floats) -> tuple[Any, ...]:
-    """Split the last axis: (..., k) -> k arrays (...); (k,) -> k plain numbers, which make the same
-    formulas several times faster than arrays of size one.
+    """Split the last axis: (..., k) -> k arrays (...); (k,) -> k plain numbers, with which the same
+    formulas run several times faster than with arrays of size one.
     """
     if array.ndim == 1:
         return tuple(array.tolist())
@@ -102,7 +102,7 @@ def by_blocks(
 
 
 def _seal(value: Any) -> None:
-    """Make an array read-only, or all arrays of a tuple."""
+    """Make an array, or every array in a tuple, read-only."""
     if isinstance(value, np.ndarray):
         sealed(value)
     elif isinstance(value, tuple):

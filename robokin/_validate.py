@@ -19,7 +19,8 @@ from ._arrays import Bools, Floats
 T = TypeVar("T")
 FLOAT = np.dtype(float)
 TWO_TURNS = 4 * np.pi
-AXES = 30  # most axes of an argument; a result may have two more, and NumPy broadcasts up to 32
+# greatest number of axes of an argument; a result may have two more, and NumPy broadcasts up to 32
+AXES = 30
 GREATEST = 10**8  # greatest number of values in one array: more would exhaust a laptop's memory
 
 
@@ -128,7 +129,7 @@ def broadcast(name: str, *shapes: tuple[int, ...]) -> tuple[int, ...]:
 
 
 def instance(value: Any, kind: type[T], name: str, hint: str = "") -> T:
-    """Return `value`. TypeError: it is not a `kind`."""
+    """Return `value`. TypeError: it is not an instance of `kind`."""
     if not isinstance(value, kind):
         article = "an" if kind.__name__[0] in "AEIOU" else "a"
         raise TypeError(f"{name}: wanted {article} {kind.__name__}, got {short(value)}{hint}")
@@ -182,7 +183,7 @@ def _numbers(value: Any, name: str) -> Floats:
 
 
 def masked(value: Any) -> bool:
-    """Whether `value` is a masked array. To use `np.ma` here would import it, which takes 8 ms."""
+    """Whether `value` is a masked array. Using `np.ma` here would import it, which takes 8 ms."""
     return isinstance(value, np.ndarray) and hasattr(value, "mask")
 
 

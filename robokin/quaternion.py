@@ -50,8 +50,8 @@ class Quaternion(Batch):
     """A rotation, or a batch of rotations of any shape, as unit quaternions `wxyz` (..., 4).
 
     `a @ b` composes (b first, then a) and `a @ points` rotates points of shape (..., 3). `wxyz` is
-    read-only. ValueError: numbers that are not finite, or a length that is not 1 within 1e-6.
-    Source: 001, all listings, which write `*`; the product is Hamilton's.
+    read-only. ValueError: numbers that are not finite, or a length that differs from 1 by more than
+    1e-6. Source: 001, all listings, which write `*`; the product is Hamilton's.
 
     >>> half = Quaternion.from_angle_axis(np.pi, (0, 0, 1))
     >>> (half @ (1, 2, 3)).round(3)
@@ -79,8 +79,8 @@ class Quaternion(Batch):
     @classmethod
     def from_angle_axis(cls, angle: ArrayLike, axis: ArrayLike) -> "Quaternion":
         """The rotation by `angle` (...) in radians about the unit vector `axis` (..., 3),
-        counter-clockwise when the axis points at the viewer. ValueError: an axis whose length is
-        not 1 within 1e-6.
+        counter-clockwise when the axis points at the viewer. ValueError: an axis whose length
+        differs from 1 by more than 1e-6.
         """
         angles, axes = floats(angle, "angle"), floats(axis, "axis", 3)
         broadcast("angle and axis", angles.shape, axes.shape[:-1])
@@ -104,8 +104,8 @@ class Quaternion(Batch):
 
     @classmethod
     def from_matrix(cls, matrix: ArrayLike) -> "Quaternion":
-        """The rotations of matrices (..., 3, 3). ValueError: a matrix that is not orthogonal within
-        1e-6, or a reflection.
+        """The rotations of matrices (..., 3, 3). ValueError: a matrix that is not orthogonal to
+        within 1e-6, or a reflection.
 
         The matrix gives each product of two components, and so all four after a division by any one
         of them. We divide by the largest (Shepperd 1978, J. Guidance and Control 1, p. 223), which
@@ -171,8 +171,8 @@ class Quaternion(Batch):
         rotation (see `from_roll_pitch_yaw`); pitch lies in [-pi/2, pi/2].
 
         At a pitch of +-90 degrees (within the rounding of a few products) roll and yaw rotate about
-        the same line, and we set roll to zero. Near it each angle alone loses digits, but together
-        they still give this rotation. Source: Bernardes and Viollet 2022, PLoS ONE 17(11),
+        the same line, and we set roll to zero. Near this pitch each angle alone loses digits, but
+        together they still give this rotation. Source: Bernardes and Viollet 2022, PLoS ONE 17(11),
         e0276302.
         """
         w, x, y, z = components(self.wxyz)

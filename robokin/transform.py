@@ -63,7 +63,7 @@ class Transform(Batch):
     @classmethod
     def from_matrix(cls, matrix: ArrayLike) -> "Transform":
         """The transforms of homogeneous matrices (..., 4, 4). ValueError: the upper left part is
-        not a rotation within 1e-6, or the last row is not 0 0 0 1.
+        not a rotation to within 1e-6, or the last row is not 0 0 0 1.
         """
         m = floats(matrix, "matrix", 4)
         if m.ndim < 2 or m.shape[-2] != 4:

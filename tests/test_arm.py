@@ -45,7 +45,7 @@ machines = pytest.mark.parametrize("machine", MACHINES, ids=repr)
 
 @machines
 @pytest.mark.parametrize("shape", SHAPES)
-def test_fk_equals_the_matrix_chain_of_the_document(machine, shape):
+def test_fk_matches_the_matrix_chain_of_the_document(machine, shape):
     q = random_joints(machine.arm, RNG, shape)
     T = machine.arm.fk(q)
     assert T.shape == shape
@@ -56,7 +56,7 @@ def test_fk_equals_the_matrix_chain_of_the_document(machine, shape):
 
 
 @machines
-def test_fk_at_home_equals_the_matrix_chain(machine):
+def test_fk_at_home_matches_the_matrix_chain(machine):
     n = len(machine.arm.links)
     assert np.allclose(
         machine.arm.fk([0] * n).as_matrix(), machine.chain([0] * n), rtol=0, atol=2e-16
@@ -271,7 +271,7 @@ def test_reach_of_a_chain_is_an_upper_bound():
         q = RNG.uniform(*arm.limits.T, (2000, len(arm.links)))
         flange, joint = arm.fk(q).translation, links[0].before
         beside = flange - joint.translation
-        if not links[0].prismatic:  # only the distance from the axis
+        if not links[0].prismatic:  # only the distance from the axis counts
             axis = joint.rotation @ links[0].axis
             beside = beside - (beside @ axis)[:, None] * axis
         farthest = np.linalg.norm(beside, axis=-1).max()
@@ -280,7 +280,7 @@ def test_reach_of_a_chain_is_an_upper_bound():
     assert longer.reach == pytest.approx(1.0) and arm.reach == pytest.approx(0.6)
 
 
-def test_arm_without_an_inverse_explains_what_to_use():
+def test_error_for_a_missing_inverse_names_what_to_use():
     for arm, others in ((UR5, ""), (three_lever(0.4), "alpha_range, family, ")):
         for name in ("ik", "branch", "branches"):
             assert not hasattr(arm, name)
@@ -315,7 +315,7 @@ def test_whole_turns_do_not_change_fk():
 
 # The limits and speeds of the robots as printed in their sources, in degrees and millimetres.
 PUBLISHED = {
-    "IRB-140": (  # 001, listing 7; speeds: our choice, below public models
+    "IRB-140": (  # 001, listing 7; speeds: our choice, below those of public models
         IRB140,
         [(-180, 180), (-90, 110), (-230, 50), (-200, 200), (-115, 115), (-400, 400)],
         [200, 200, 245, 348, 360, 450],
@@ -335,7 +335,7 @@ PUBLISHED = {
 
 
 @pytest.mark.parametrize("name", PUBLISHED)
-def test_limits_and_speeds_equal_the_published_ones(name):
+def test_limits_and_speeds_match_the_published_ones(name):
     arm, limits, speeds = PUBLISHED[name]
     units = np.where(arm.prismatic, mm, deg)[:, None]
     assert arm.name == name

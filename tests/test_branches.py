@@ -110,7 +110,9 @@ def test_limits_beyond_half_a_turn_are_respected():
 
 
 def nearest_by_trial(arm, rows, q):
-    """The nearest of all rows with all whole turns; each joint inside its limits if possible."""
+    """The nearest row, found by trying all rows and whole turns; each joint inside its limits if
+    possible.
+    """
     best = np.full(len(arm.links), np.nan)
     for row in rows[~np.isnan(rows).any(-1)]:
         choice = []
@@ -189,8 +191,8 @@ def joint_path(arm, q0, q1, samples=201):
 @six
 @pytest.mark.parametrize("middle", [0.0, np.pi])
 def test_follow_passes_straight_through_the_wrist_singularity(machine, middle):
-    """q5 crosses 0 (or pi) while q4 and q6 stand still: in a fixed row both jump by half a turn,
-    with `follow` neither moves.
+    """q5 crosses 0 (or pi) while q4 and q6 stand still: in a fixed row both jump by half a turn;
+    with `follow`, neither moves.
     """
     arm = machine.arm
     rng = np.random.default_rng(24)
@@ -392,7 +394,7 @@ def test_follow_treats_each_motion_of_a_batch_separately(machine):
 
 
 @machines
-def test_follow_gives_solutions_of_the_poses(machine):
+def test_follow_returns_solutions_for_the_poses(machine):
     arm = machine.arm
     rng = np.random.default_rng(28)
     q0, q1 = random_joints(arm, rng, (2,))
@@ -436,7 +438,7 @@ def test_explain_reports_the_distance_out_of_reach():
         assert "does not exist" in explain(IRB140, pose, row) and "metres" not in explain(
             IRB140, pose, row
         )
-    # an arm that reaches back over the shoulder is short of 140 mm more
+    # an arm that reaches back over the shoulder falls short by another 140 mm
     assert "152.3 mm beyond" in explain(IRB140, pose, 4)
     near = Transform(TURNED, np.array([0.07 + 0.02, 0, 0.352]) + [0.065, 0, 0])
     assert "10.0 mm too near" in explain(IRB140, near, 0)
@@ -550,7 +552,7 @@ def test_wrong_arguments_are_named_in_the_error(call, evidence):
 
 
 def test_blend_stays_on_one_row():
-    """Far from all singularities `follow` returns the row on which it starts, unwrapped."""
+    """Far from all singularities, `follow` returns the row on which it starts, unwrapped."""
     start = Transform(Quaternion.from_angle_axis(90 * deg, (-1, 0, 0)), (0.2, 0.4, 0.2))
     via = Transform(Quaternion.from_angle_axis(45 * deg, (0, 1, 0)), (0.65, -0.1, 0.8))
     goal = Transform(TURNED, (0.3, 0.3, 0.5))
@@ -563,7 +565,7 @@ def test_blend_stays_on_one_row():
         assert abs(np.diff(path, axis=0)).max() < 0.05
 
 
-# values for people
+# values to show to people
 # --------------------------------------------------------------------------------------------------
 
 
@@ -617,7 +619,7 @@ def test_representative_keeps_a_joint_at_its_limit():
             assert np.allclose(representative(arm, limit), limit, rtol=0, atol=1e-12)
 
 
-def test_unwrapped_takes_the_nearest_turn_and_keeps_strokes():
+def test_unwrapped_takes_the_nearest_turn_and_keeps_prismatic_joints():
     rng = np.random.default_rng(32)
     q, near = rng.uniform(-9, 9, (2, 100, 2))
     got = unwrapped(MIXED, q, near)
@@ -638,7 +640,7 @@ def test_degrees_cause_a_warning_and_long_motions_do_not():
     SCARA.fk([0.1, 0.2, 0.3, 90])  # metres
 
 
-def test_follow_of_a_batch_equals_single_motions():
+def test_follow_of_a_batch_matches_single_motions():
     """One motion is singular throughout, one begins late, one is missing."""
     s = np.linspace(0, 1, 30)[:, None]
     plain = np.array([0.1, 0.2, 0.3, 0.4, 0.5, 0.6]) + 0.5 * s

@@ -1,7 +1,7 @@
 """Players in a real browser: live in JupyterLab, in trusted and untrusted notebooks, exported and
 saved.
 
-The tests read what a person would see: the pixels of the canvases and the words of the table.
+The tests read what a person would see: the pixels of the canvases and the text of the table.
 """
 
 import html
@@ -24,7 +24,7 @@ PLAYER = "div.robokin-player"
 LIVE = ("00_start_here", "03_irb140_motion")
 LABS = [path.stem for path in sorted(NOTEBOOKS.glob("*.ipynb"))]
 COMPANIONS = [f"documents/{path.stem}" for path in sorted(NOTEBOOKS.glob("documents/*.ipynb"))]
-# Finds faults in all players, in the same frames: each slider must change the picture and restore
+# Finds faults in all players at once: each slider must change the picture and restore
 # the first picture at its first value, and the clock must run and stop.
 ALIVE = """async selector => {
   const wrong = {}, players = [...document.querySelectorAll(selector)];
@@ -57,8 +57,8 @@ ALIVE = """async selector => {
     const again = await see();
     players.forEach((_, k) => {
       if (!sliders[k][i]) return;
-      if (first[k] === last[k] && first[k] === before[k]) say(k, `slider ${i} moves nothing`);
-      if (first[k] !== again[k]) say(k, `slider ${i} does not come back`);
+      if (first[k] === last[k] && first[k] === before[k]) say(k, `slider ${i} changes nothing`);
+      if (first[k] !== again[k]) say(k, `slider ${i} does not restore the picture`);
     });
   }
   const buttons = players.map(player =>
@@ -68,12 +68,12 @@ ALIVE = """async selector => {
   buttons.forEach(button => button.click());
   let moved = await see();
   while (moved.some((one, k) => one === still[k]) && performance.now() < end) moved = await see();
-  moved.forEach((one, k) => one === still[k] && say(k, "play moves nothing"));
+  moved.forEach((one, k) => one === still[k] && say(k, "play does not start the motion"));
   buttons.forEach(button => button.click());
   const paused = await see();
   await new Promise(done => setTimeout(done, 200));
-  (await see()).forEach((one, k) => one !== paused[k] && say(k, "pause does not stop it"));
-  players.forEach((player, k) => sliders[k].length || say(k, "a player has at least its time"));
+  (await see()).forEach((one, k) => one !== paused[k] && say(k, "pause does not stop the motion"));
+  players.forEach((player, k) => sliders[k].length || say(k, "the player has no time slider"));
   return wrong;
 }"""
 NEXT_FRAME = "() => new Promise(done => requestAnimationFrame(() => requestAnimationFrame(done)))"
@@ -159,7 +159,7 @@ def test_player_works_in_jupyterlab(browser, jupyter, page, lab):
 def test_opening_a_lab_does_not_mark_it_as_changed(jupyter, page):
     tab = page.locator(".lm-TabBar-tab.lm-mod-current[data-type='document-title']")
     for lab in LIVE:
-        # the reader's Python version: the only field that no stored lab can have right for all
+        # the reader's Python version: the only field that no stored lab has right for every reader
         name = _variant(jupyter, f"opened_{lab}.ipynb", lab)
         notebook = json.loads((jupyter.labs / name).read_text())
         notebook["metadata"]["language_info"]["version"] = platform.python_version()
@@ -170,7 +170,7 @@ def test_opening_a_lab_does_not_mark_it_as_changed(jupyter, page):
         assert tab.count() == 1 and "jp-mod-dirty" not in tab.get_attribute("class"), name
     page.locator(".jp-CodeCell .cm-content").first.click()
     page.keyboard.type("# mine")
-    until(lambda: "jp-mod-dirty" in tab.get_attribute("class"), "a change is not seen", page)
+    until(lambda: "jp-mod-dirty" in tab.get_attribute("class"), "the change is not marked", page)
 
 
 def test_theme_change_redraws_every_canvas(jupyter, page):
@@ -220,7 +220,7 @@ def test_arrow_keys_reach_the_slider_and_not_the_notebook(jupyter, page):
     for key in ("ArrowDown", "ArrowLeft", "ArrowLeft"):
         slider.press(key)
     page.evaluate(NEXT_FRAME)
-    assert _seen(player) == seen, "the same value shows another picture"
+    assert _seen(player) == seen, "the same value shows a different picture"
     assert (
         page.evaluate(active) == cell
         and page.evaluate("() => document.activeElement.type") == "range"
@@ -284,7 +284,7 @@ def test_players_of_exported_labs_work_offline(page, exported, lab):
         _plays(page, played[0])
     assert page.outside == [] and page.errors == []
     for prose in page.locator(".jp-RenderedMarkdown").all_inner_texts():
-        assert not re.search(r"\$|\\[a-z]+", prose), f"TeX as it was typed: {prose}"
+        assert not re.search(r"\$|\\[a-z]+", prose), f"TeX is not rendered: {prose}"
 
 
 def test_saved_player_sends_no_requests(page, saved):
@@ -321,14 +321,14 @@ def test_keyboard_reaches_every_control(page, saved):
         }
     assert len(reached) == controls.count()
     for name in ("play", "time", "playing speed", "large panel", "numbers", "share", "law"):
-        assert page.get_by_label(name, exact=True).count() == 1, f"no control is called {name}"
+        assert page.get_by_label(name, exact=True).count() == 1, f"wanted one control called {name}"
 
 
-# --- What a person does and sees ------------------------------------------------------------------
+# --- Helpers: user actions and visible content ----------------------------------------------------
 
 
 def _seen(player):
-    """The pixels of all canvases and the words of the table."""
+    """The pixels of all canvases and the text of the table."""
     pixels = player.evaluate(
         "e => [...e.querySelectorAll('canvas')].map(canvas => canvas.toDataURL())"
     )
@@ -339,14 +339,16 @@ def _seen(player):
 
 
 def _settled(page, player):
-    """What is visible once the player is at rest: views above it may still move or widen it."""
+    """Return the visible content once the player is at rest: views above it may still move or widen
+    it.
+    """
     seen = _seen(player)
     for _ in range(20):
         page.wait_for_timeout(300)
         before, seen = seen, _seen(player)
         if before == seen:
             return seen
-    pytest.fail("the picture does not come to rest")
+    pytest.fail("the picture keeps changing")
 
 
 def _sliders(player):
@@ -361,7 +363,7 @@ def _slider(player, label):
 
 
 def _moves(page, player, slider):
-    """Keys and mouse change the value and the picture; the picture depends only on the value."""
+    """Keys and mouse must change the value and the picture, which depends only on the value."""
     slider.scroll_into_view_if_needed()
     slider.focus()
     slider.press("Home")
@@ -390,7 +392,7 @@ def _moves(page, player, slider):
 
 
 def _answers(page, player):
-    """A slider and a key on a handle change the picture and the words of an explorer."""
+    """A slider and a key on a handle must change the picture and the text of an explorer."""
     for held in (player.locator("input[type=range]").first, player.locator(".rk-handle").first):
         held.scroll_into_view_if_needed()
         held.focus()
@@ -402,17 +404,19 @@ def _answers(page, player):
             lambda before=before, words=words: (
                 _seen(player).pixels != before.pixels and player.inner_text() != words
             ),
-            "an explorer does not answer",
+            "an explorer does not respond",
             page,
         )
 
 
 def _plays(page, player):
-    """The play button starts and stops the arm."""
+    """The play button must start and stop the arm."""
     button = player.get_by_role("button", name=re.compile("play|pause", re.I)).first
     seen = _seen(player)
     button.click()
-    until(lambda: _seen(player).pixels != seen.pixels, "the play button moves nothing", page)
+    until(
+        lambda: _seen(player).pixels != seen.pixels, "the play button does not start the arm", page
+    )
     button.click()
     page.evaluate(NEXT_FRAME)
     seen = _seen(player)

@@ -275,13 +275,13 @@ def test_interrupts_and_internal_errors_are_handled(tmp_path, monkeypatch, capsy
 
     def fails(task, **options):
         if task.kind == "visit":
-            raise ArithmeticError("of the test")
+            raise ArithmeticError("raised by the test")
         return real(task, **options)
 
     monkeypatch.setattr(module, "answer", fails)
     assert module.main(["tasks"]) == 1
     out = capsys.readouterr().out
-    assert "Task a.json skipped:\n\tthis program failed, ArithmeticError: of the test" in out
+    assert "Task a.json skipped:\n\tthis program failed, ArithmeticError: raised by the test" in out
     assert "Task b.json: collected 1 of 2" in out and "Traceback" not in out
     assert "Traceback" in (tmp_path / "output.log").read_text(), (
         "the log lacks the traceback, which a developer needs"

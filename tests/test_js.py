@@ -77,7 +77,9 @@ def test_functions_and_files_are_short():
         for path, found in scanned().items()
         for name, first, count in found["functions"]
     ]
-    assert len(functions) > 1000 and max(count for *_, count in functions) > 40, "too few found"
+    assert len(functions) > 1000 and max(count for *_, count in functions) > 40, (
+        "too few functions were found"
+    )
     assert not [each for each in functions if each[-1] > 60]
     lengths = {path.name: len(path.read_text(encoding="utf-8").splitlines()) for path in SCRIPTS}
     assert not {name: length for name, length in lengths.items() if length > 350}
@@ -92,7 +94,7 @@ PLAIN = {*range(-1, 101), 0.002, 0.5, 200, 400}  # values that may be equal by c
 
 
 def numbers_of(path):
-    """name -> value of the top-level numbers of a Python module."""
+    """The top-level numbers of a Python module: dict of name -> value."""
     found = {}
     for node in ast.parse(path.read_text(encoding="utf-8")).body:
         pairs = []
@@ -183,8 +185,8 @@ THINGS = {get_args(table.__annotations__["kind"])[0]: table for table in get_arg
 
 
 def test_tsc_refuses_a_changed_key(tmp_path):
-    """For each kind of page or thing: its own scripts no longer type-check, those of other kinds
-    do. Of a page one key is changed, of a thing every key except its kind.
+    """When keys of one kind of page or thing change, its scripts no longer type-check, and those of
+    other kinds still do. One key of a page is changed, or every key of a thing except its kind.
     """
     for path in [*FOLDER.glob("*.js"), FOLDER / "page.d.ts"]:
         shutil.copy(path, tmp_path)
@@ -216,12 +218,14 @@ def test_scenes_have_no_optional_keys():
 def test_all_kinds_of_things_are_listed():
     """A kind is a module in things/, a script in js/, data in PageThing, and a class."""
     modules = {path.stem for path in (PACKAGE / "show" / "things").glob("[!_]*.py")} - {"thing"}
-    where = "in PageThing of things/__init__.py: its kinds are those of the modules in things/"
+    where = "PageThing in things/__init__.py: wanted one kind for each module in things/"
     assert THINGS.keys() == modules, where
-    assert not {kind for kind in THINGS if not (FOLDER / f"{kind}.js").exists()}, "a script in js/"
+    assert not {kind for kind in THINGS if not (FOLDER / f"{kind}.js").exists()}, (
+        "wanted a script in js/ for each kind"
+    )
     classes = {getattr(things, name) for name in things.__all__} - {things.PageThing, things.Thing}
     exported = {each.__module__.rpartition(".")[2] for each in classes}
-    assert exported == modules, "in __all__ of things/__init__.py: a class of each module"
+    assert exported == modules, "__all__ in things/__init__.py: wanted a class of each module"
 
 
 def test_explorer_pages_have_no_optional_keys():

@@ -1,5 +1,5 @@
 """Handed-in notebooks are judged again, and their answers get the right points whatever the author
-has written.
+wrote.
 
 The labs are written here, so that the points for every answer are known in advance.
 """
@@ -66,7 +66,7 @@ def test_missing_raising_and_endless_answers_are_judged(tmp_path):
 
 @pytest.fixture(scope="module")
 def tricks(tmp_path_factory):
-    """The result of a lab with unusual cells and with unusual files beside it."""
+    """The result of a lab with unusual cells and with unusual files next to it."""
     folder = tmp_path_factory.mktemp("tricks")
     (folder / "robokin.py").write_text("raise SystemExit")  # must not be imported
     for name in ("tasks", "tasks/.robokin", ".robokin"):
@@ -116,11 +116,11 @@ def tricks(tmp_path_factory):
     )
     before = sorted(os.listdir(folder))
     judged = judge_notebook(handed_in(lab), "Ada", QUICK)
-    assert sorted(os.listdir(folder)) == before, "something was left beside the notebook"
+    assert sorted(os.listdir(folder)) == before, "files were left next to the notebook"
     return SimpleNamespace(judged=judged, cells=judged.notebook.cells)
 
 
-def test_modified_package_in_a_notebook_does_not_judge(tricks):
+def test_package_modified_by_a_notebook_does_not_affect_verdicts(tricks):
     one, two, three = tricks.judged.exercises
     assert one.state == "does not hold"
     said = 'irb140_motion.1: the notebook\'s own output says "holds"; the check says'
@@ -291,7 +291,7 @@ def test_unjudged_exercise_does_not_contradict_outputs(tmp_path):
     assert judging._differences((result,), {result.id: "holds"}, {result.id: "holds"}) == []
 
 
-# --- In the kernel --------------------------------------------------------------------------------
+# --- Judging in the kernel ------------------------------------------------------------------------
 
 
 def asked(answers, name, answer, own="", who=None):
@@ -350,7 +350,7 @@ def test_kernel_answer_that_is_not_json_is_ignored(odd):
     assert judging._read(odd) == {"error": "the kernel gave no answer"}
 
 
-# --- Reading --------------------------------------------------------------------------------------
+# --- Reading of notebooks -------------------------------------------------------------------------
 
 
 def test_last_call_counts_and_any_file_name_works(tmp_path):
@@ -488,7 +488,7 @@ def test_exercise_in_a_cell_that_cannot_be_parsed_is_broken(source, tmp_path):
     lab.write_text(json.dumps(new_notebook(cells=[cell(source)])))
     assert tried(lab)
     given = handed_in(lab)
-    if "\ud800" in source:  # it is not a character, so it is read as an escape
+    if "\ud800" in source:  # a surrogate is not a character, so it is read as an escape
         assert given.checks["irb140_motion.1"].answer == r"'\ud800'"
         return
     assert set(given.broken) == {"irb140_motion.1"} and given.broken["irb140_motion.1"]
@@ -504,7 +504,7 @@ def test_missing_and_unreadable_files_are_refused(tmp_path):
         handed_in(tmp_path / "large")
 
 
-@pytest.mark.skipif(sys.platform != "linux", reason="names are Unicode elsewhere")
+@pytest.mark.skipif(sys.platform != "linux", reason="file names are Unicode on other systems")
 def test_file_name_that_is_not_utf_8_works(tmp_path):
     path = stored(tmp_path / "lab.ipynb", "1").rename(os.fsdecode(os.fsencode(tmp_path) + b"/\xe9"))
     assert tried(path) and handed_in(path).title == "\N{REPLACEMENT CHARACTER}"
@@ -575,7 +575,7 @@ def twice(x):
 
 
 def test_exercise_outside_robokin_is_judged_if_the_teacher_has_it(tmp_path, monkeypatch, capsys):
-    """Files beside the student's notebook do not count as the teacher's."""
+    """Files next to the student's notebook do not count as the teacher's."""
     (tmp_path / "handed").mkdir()
     lab = stored(
         tmp_path / "handed" / "Ada.ipynb",
@@ -593,10 +593,10 @@ def test_exercise_outside_robokin_is_judged_if_the_teacher_has_it(tmp_path, monk
     told = "not judged, since it is not an exercise of a lab."
     assert judged.exercises == () and f"doubles.1: {told}" in judged.remarks
     assert [each for each in judged.remarks if each.endswith(told)][1:], (
-        "the exercise made in a cell is not reported"
+        "the exercise defined in a cell is not reported"
     )
 
-    monkeypatch.setenv("ROBOKIN_EXERCISES", "")  # so that it is restored after the test
+    monkeypatch.setenv("ROBOKIN_EXERCISES", "")  # so that pytest restores it after the test
     given = ["summary", str(tmp_path / "handed"), "--to", str(tmp_path)]
     assert main([*given, "--exercises", str(tmp_path / "teacher")]) == 0
     table = (tmp_path / "summary.csv").read_text(encoding="utf-8-sig")

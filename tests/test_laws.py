@@ -36,7 +36,7 @@ def test_rounding_near_the_end_never_exceeds_1(law):
 
 
 @laws
-def test_laws_are_constant_before_and_after(law):
+def test_laws_are_constant_before_and_after_the_motion(law):
     assert law(2.0)(np.array([-1e9, -1e-9, 2.0, 2.1, 1e9])).tolist() == [0, 0, 1, 1, 1]
 
 
@@ -49,7 +49,7 @@ def test_laws_keep_the_shape_of_the_times(law, shape):
     assert np.allclose(np.ravel(s), [law(3.0)(one) for one in np.ravel(t)], rtol=0, atol=1e-16)
 
 
-def test_linear_is_the_fraction_of_the_time():
+def test_linear_law_is_the_fraction_of_elapsed_time():
     t = np.linspace(0, 7, 50)
     assert np.allclose(linear(7.0)(t), t / 7, rtol=0, atol=1e-16)
 
@@ -86,7 +86,7 @@ def derivative_jumps(law, at, order, h):
     [
         (linear(4.0), 1, [0, 4], 0.25),
         (trapezoidal(4.0), 1, [0, 1, 3, 4], 0),
-        # the jump is the cruising speed divided by the time of a ramp
+        # the jump is the cruising speed divided by the duration of a ramp
         (trapezoidal(4.0), 2, [0, 1, 3, 4], 1 / 0.75 / 4 / 1.0),
         (quintic(4.0), 1, [0, 4], 0),
         (quintic(4.0), 2, [0, 4], 0),

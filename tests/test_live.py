@@ -38,7 +38,7 @@ Object.defineProperty(navigator, "clipboard", {value: clipboard});
 """
 
 
-# --- Answers to questions ------------------------------------------------------------------
+# --- Answers to questions -------------------------------------------------------------------------
 
 
 def questions(count, seed=15):
@@ -51,7 +51,7 @@ def questions(count, seed=15):
         start = plan(ARM, start, target).posture
 
 
-def test_answer_and_drawing_equal_the_plan():
+def test_answer_and_drawing_match_the_plan():
     answer, ways = plan_explorer(ARM, START, (1.9, 0.3), (1.2, 1.3)).answer, set()
     for question in questions(25):
         known = plan(ARM, *(question[k] for k in ("posture", "target", "obstacle", "distance")))
@@ -74,7 +74,7 @@ def test_answer_and_drawing_equal_the_plan():
     assert {"direct", "search", "none"} <= ways
 
 
-def test_unchecked_paths_are_judged_by_the_levers():
+def test_unchecked_paths_are_judged_by_lever_clearance():
     answer = plan_explorer(ARM, START, (1.9, 0.3), (1.2, 1.3)).answer
     seen = set()
     for question in questions(12, seed=3):
@@ -106,7 +106,7 @@ def test_cube_agrees_with_distances_and_a_simple_search():
     np.testing.assert_array_equal(cube == FORBIDDEN, near < question["distance"])
     begun, around = tuple(np.argwhere(cube == 0)[0]), abs(grid - question["posture"])
     assert (cube == 0).sum() == 1 and around[begun].max() <= STEP
-    known, front = {begun: 0}, [begun]  # the same search, one posture after another
+    known, front = {begun: 0}, [begun]  # the same search, one posture at a time
     while front:
         later = []
         for cell, joint, side in itertools.product(front, range(3), (-1, 1)):
@@ -138,7 +138,7 @@ UNPACK = """([content, buffers]) => {
     : Object.fromEntries(Object.entries(x).map(([k, v]) => [k, plain(v)]));
   const views = buffers && buffers.map(text => {
     const bytes = Uint8Array.from(" " + atob(text), letter => letter.charCodeAt(0));
-    return new DataView(bytes.buffer, 1);  // at an odd place
+    return new DataView(bytes.buffer, 1);  // at an odd offset
   });
   return plain($live.joinArrays(content, views));
 }"""
@@ -173,12 +173,12 @@ def test_arrays_reach_the_page_unchanged_by_message_and_by_file(browser):
         live.split_arrays({"x": np.zeros(3)})
 
 
-# --- In JupyterLab --------------------------------------------------------------------------------
+# --- Live views in JupyterLab ---------------------------------------------------------------------
 
 
 @pytest.fixture(scope="module")
 def stored(tmp_path_factory):
-    """A notebook with the explorer of plans, run and stored."""
+    """A notebook with the plan explorer, run and stored."""
     path = tmp_path_factory.mktemp("stored") / NAME
     v4 = nbformat.v4
     cells = [v4.new_markdown_cell("# Live", id="title"), v4.new_code_cell(CELL, id="cell")]
@@ -214,7 +214,7 @@ def test_live_view_wakes_after_run_all_and_shows_the_last_position(jupyter, quie
     quiet.locator("[data-handle=H]").evaluate(QUICK, 200)
     shows_what_python_says(quiet)
     now = int(quiet.locator(".robokin-player").get_attribute("data-asked"))
-    assert now - asked < 200, "positions that were passed quickly are not skipped"
+    assert now - asked < 200, "positions that are passed quickly were not skipped"
     assert quiet.errors == [] and quiet.outside == []
 
     # a restarted kernel does not know the page
@@ -297,7 +297,7 @@ def shows_what_python_says(tab):
         same, seen[0] = now == seen[0] and now[0] == now[1], now
         return same
 
-    until(rests, "the answers do not come to rest", tab)
+    until(rests, "the answers keep changing", tab)
     tab.get_by_role("button", name="Copy as Python").click()
     space = {"arm": ARM}
     lines = tab.evaluate("window.copied").replace("\nplan(", "\nknown = plan(")
@@ -314,7 +314,7 @@ def shows_what_python_says(tab):
     return known.way
 
 
-# --- Stored ---------------------------------------------------------------------------------------
+# --- Stored and exported views --------------------------------------------------------------------
 
 
 def test_exported_page_sleeps_except_for_parts_that_need_no_kernel(quiet, stored, tmp_path):

@@ -20,7 +20,7 @@ def joints_of(case):
 
 
 @cases
-def test_angles_equal_the_reference_cases(case):
+def test_angles_match_the_reference_cases(case):
     arm = loader_arm(case["A"], case["B"])
     row = arm.ik(case["p"])[arm.branch(+1, -1)]
     q = station_postures(arm, [case["p"]])[0]
@@ -70,7 +70,7 @@ def test_ik_contains_the_original_joints(A, B, shape):
 
 @pytest.mark.parametrize("x", [-1.0, 0.0, 1.0])
 @pytest.mark.parametrize("y", [-2.0, -0.0, 0.0, 2.0])
-def test_alpha_equals_the_nine_cells_of_table_1(x, y):
+def test_alpha_matches_the_nine_cells_of_table_1(x, y):
     alpha = station_postures(loader_arm(2, 1.5), [(x, y, 0.9)])[0, 0] / deg
     steep = np.degrees(np.arctan(2.0))
     table = {
@@ -104,7 +104,7 @@ def test_alpha_keeps_its_value_on_the_axis():
     assert np.isfinite(q).all() and q[3, 2] == pytest.approx(np.pi)
 
 
-def test_gamma_may_be_up_to_270_degrees():
+def test_gamma_can_reach_270_degrees():
     """If the outer lever is longer, the inner one can point down and back, up to 270 degrees."""
     arm, alpha = loader_arm(1.0, 2.0), 0.3
     gamma, beta = np.meshgrid([-30, 1, 89, 179, 181, 269, 269.9], [0.03, 0.3, 20, 70, 150])
@@ -140,7 +140,7 @@ def test_alpha_continues_by_the_shortest_turn():
         (0, 0, 0),
     ],
 )
-def test_shortest_turn_equals_hand_computed_values(start, goal, turn):
+def test_shortest_turn_matches_hand_computed_values(start, goal, turn):
     assert shortest_turn(start * deg, goal * deg) / deg == pytest.approx(turn)
 
 
@@ -166,7 +166,7 @@ def test_stretched_and_folded_arms_have_the_expected_angles(A, B):
 
 
 @lengths
-def test_angles_equal_the_formulas_of_the_document(A, B):
+def test_angles_match_the_formulas_of_the_document(A, B):
     rng = np.random.default_rng(5)
     p = rng.normal(size=(300, 3)) * [1, 1, 0.7]
     p[:, 2] = abs(p[:, 2])
@@ -174,8 +174,8 @@ def test_angles_equal_the_formulas_of_the_document(A, B):
         :, None
     ] / np.linalg.norm(p, axis=1, keepdims=True)
     h2 = (p**2).sum(axis=1)
-    beta = np.arccos((B**2 + A**2 - h2) / (2 * A * B))  # (3)
-    # (4)
+    beta = np.arccos((B**2 + A**2 - h2) / (2 * A * B))  # formula (3)
+    # formula (4)
     gamma = np.arccos((A**2 - B**2 + h2) / (2 * A * np.sqrt(h2))) + np.arcsin(p[:, 2] / np.sqrt(h2))
     q = station_postures(loader_arm(A, B), p)
     np.testing.assert_allclose(q[:, 1:], np.stack([gamma, beta], axis=1), atol=1e-8)
@@ -189,7 +189,7 @@ def test_unreachable_coordinates_get_a_reason():
     assert out_of_reach(arm, (1, 0.5, 0.4)) == []
     assert out_of_reach(arm, (1, 0.5, -0.1)) == ["the point is under the floor: z = -0.1 m"]
     assert out_of_reach(arm, (2, 0, 0)) == ["the point is 100.0 mm beyond the stretched arm"]
-    # the inner bound, S3-r
+    # the inner bound of errata S3-r
     assert out_of_reach(arm, (0.3, 0, 0.1)) == ["the point is 183.8 mm too near to joint 2"]
     assert len(out_of_reach(arm, (2, 0, -1))) == 2
     # the tolerance is 1e-12 of the reach

@@ -1,5 +1,5 @@
 """The motor explorer in a real browser: it shows what `Stepper` computes for the same motor,
-however it is moved, without a kernel or a network.
+whichever controls are used, without a kernel or a network.
 """
 
 import json
@@ -28,14 +28,14 @@ MOTORS = {
 
 @cache
 def told(motor):
-    """The data that the page gets."""
+    """The data of the page."""
     return motor_explorer(motor).data
 
 
 @pytest.fixture(scope="module")
 def rotor(context):
-    """The page's functions: `rotor(name, motor, load, load_inertia, *arguments)` -> the returned
-    value.
+    """A function that calls the page's functions: `rotor(name, motor, load, load_inertia,
+    *arguments)` -> the returned value.
     """
     page = context.new_page()
     page.goto("about:blank")
@@ -57,7 +57,7 @@ def rotor(context):
 
 
 @pytest.mark.parametrize("name", MOTORS)
-def test_page_simulates_like_python(rotor, name):
+def test_page_and_python_simulations_agree(rotor, name):
     motor, seen = MOTORS[name], set()
     for frequency, load, load_inertia, sign in (
         (60, 0.0, 0.0, 1),
@@ -86,7 +86,7 @@ def test_page_simulates_like_python(rotor, name):
 @pytest.mark.parametrize(
     "asked", [(48, 40, 200, 0.15), (20, 50, 400, 0.3), (1, 10, 90, 2), (7, 9, 9, 0)]
 )
-def test_ramps_of_the_page_equal_those_of_python(context, asked):
+def test_page_ramps_match_those_of_python(context, asked):
     page = context.new_page()
     page.add_script_tag(content=f"{script('rotor')}\nwindow.rotor = $rotor;")
     times = page.evaluate("asked => rotor.ramp(...asked)", [*asked])
@@ -105,7 +105,7 @@ def lost(shown):
     return int(said[1]) if said else 0, code["run"].lost, code
 
 
-def test_page_reports_what_python_finds(opened):
+def test_page_reports_the_lost_steps_that_python_finds(opened):
     shown = opened(motor_explorer())
     assert lost(shown)[:2] == (44, 44) and "44 lost" in shown.look().words[1]
     shown.slide("frequency", 100)
@@ -130,7 +130,7 @@ def test_page_reports_what_python_finds(opened):
 
 
 @pytest.mark.parametrize("motor", [Stepper(), MOTORS["table 2"]], ids=["table 1", "table 2"])
-def test_tables_equal_those_of_the_document(opened, motor):
+def test_tables_match_those_of_the_document(opened, motor):
     shown = opened(motor_explorer(motor))
     marks = [[cell == "+" for cell in row[1:]] for row in shown.look().rows[:4]]
     assert (np.array(marks) == (phases(motor.drive, motor.motor) == 1)).all()

@@ -129,7 +129,7 @@ def test_wait_is_the_shortest_that_works_and_search_is_the_last_resort(answers):
     assert compared.count("wait") > 5 and compared.count("search") > 5
 
 
-def test_plan_for_a_fixed_obstacle_equals_plan():
+def test_plan_moving_agrees_with_plan_for_a_fixed_obstacle():
     for q0, K1, H in tasks(6):
         fixed, (moving, times) = plan(ARM, q0, K1, H), plan_moving(ARM, q0, K1, H, (0, 0), 1.0)
         if moving.found:
@@ -162,12 +162,12 @@ def test_impossible_plans_give_a_reason(target, obstacle, words):
     assert words in answer.words and not answer.found and times.tolist() == [0.0]
 
 
-def test_target_at_the_current_position_takes_no_time():
+def test_move_to_the_current_position_takes_no_time():
     answer, times = plan_moving(ARM, Q0, ARM.points(Q0)[3], (3, 3), (-0.1, 0), 1.0)
     assert answer.way == "direct" and times == pytest.approx([0, 0], abs=1e-9)
 
 
-# ---- two distances
+# ---- Location from two distances
 
 
 def test_two_distances_locate_an_obstacle_up_to_reflection():

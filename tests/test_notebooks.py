@@ -24,7 +24,7 @@ from robokin.show import joiner
 
 # Not recursive, since JupyterLab keeps checkpoints in a subfolder.
 LABS = sorted(NOTEBOOKS.glob("*.ipynb"))
-PATHS = [*LABS, *sorted(NOTEBOOKS.glob("documents/*.ipynb"))]  # and the companions
+PATHS = [*LABS, *sorted(NOTEBOOKS.glob("documents/*.ipynb"))]  # labs and companions
 IMPORTS = {"ipywidgets", "matplotlib", "numpy", "robokin", "scipy", "sympy"} | set(
     sys.stdlib_module_names
 )
@@ -126,7 +126,7 @@ def test_no_session_state_is_stored(path):
     assert len(set(ids)) == len(ids)
 
 
-def test_ignored_outputs_give_a_reason(cells):
+def test_ignored_outputs_have_a_reason(cells):
     for cell in cells:
         if UNCOMPARED & set(cell.metadata.get("tags", ())):
             assert len(cell.metadata.get("reason", "")) > 20, cell.source
@@ -203,7 +203,7 @@ def test_labs_have_all_parts_in_the_same_order(lab):
         assert re.search(rf"^(#+ |\*\*){heading}", text, re.M), f"no '{heading}'"
     titles = re.findall(r"^## (.*)$", text, re.M)
     places = [titles.index(part) for part in titles if part.split(" (")[0] in PARTS]
-    assert titles[places[0] :] == [titles[k] for k in places], "a section after 'Your turn'"
+    assert titles[places[0] :] == [titles[k] for k in places], "another section follows 'Your turn'"
     assert [PARTS.index(titles[k].split(" (")[0]) for k in places] == sorted(
         PARTS.index(titles[k].split(" (")[0]) for k in places
     ), "the parts are in a different order"
@@ -287,7 +287,7 @@ def test_picture_compressed_by_another_zlib_keeps_its_bytes(tmp_path):
     assert "unchanged" in _execute(path).stdout and _png(path) == other
     path.write_text(path.read_text().replace("[1, 3, 2]", "[1, 3, 1]"))
     _execute(path)
-    assert _png(path) not in (first, other), "a changed picture must be stored"
+    assert _png(path) not in (first, other), "the changed picture was not stored"
 
 
 def test_failing_notebook_is_reported_and_the_others_run(tmp_path):
@@ -337,7 +337,7 @@ def _execute(*paths):
     )
 
 
-# --- For teachers -----------------------------------------------------------------------------
+# --- Documents for teachers -----------------------------------------------------------------------
 
 
 def test_minutes_in_the_teacher_notes_are_up_to_date():

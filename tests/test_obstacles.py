@@ -1,8 +1,8 @@
 """A point obstacle near the three-lever arm: reference cases, guaranteed clearance, and plans that
 keep their distance.
 
-An independent model of the arm with complex numbers checks the distances, not robokin's.
-ROBOKIN_TASKS=2000 runs all random tasks; tests/benchmarks/obstacle_tasks.py prints their results.
+An independent model of the arm, in complex numbers, checks the distances. ROBOKIN_TASKS=2000 runs
+all random tasks; tests/benchmarks/obstacle_tasks.py prints their results.
 """
 
 import os
@@ -126,7 +126,7 @@ def tasks(n, seed=5, limited=True):
 
 
 @cases
-def test_clearance_and_via_points_equal_the_reference_cases(case):
+def test_clearance_and_via_points_match_the_reference_cases(case):
     q0, q1, H = np.array(case["previous"])[::-1], np.array(case["new"])[::-1], case["H"]
     for q, names in ((q0, ("A", "K")), (q1, ("A1", "K1"))):
         for point, name in zip(ARM.points(q)[2:], names, strict=True):
@@ -182,8 +182,8 @@ def test_quadrilateral_test_is_correct_for_any_quadrilateral():
     found = in_quadrilateral(ARM, q0, q1, H)
     assert found["AK"].tolist() == [True, True, True, True, False, False]
     assert found["BA"].shape == (6,) and found["BA"][0]
-    # compared with the winding number of the outline around the point, for a simple and a crossed
-    # outline
+    # compared with the winding number of the outline around the point, for a simple and a
+    # self-intersecting outline
     rng = np.random.default_rng(4)
     for corners in (np.stack([A, K, K1, A1]), np.stack([B, A, A1, B1])):
         points = corners.min(axis=0) + rng.uniform(-0.1, 1.1, (500, 2)) * np.ptp(corners, axis=0)
@@ -216,8 +216,8 @@ def test_clearance_is_a_tight_bound(L):
 
 @pytest.mark.parametrize("levers", [(0.9, 1.1, 0.6), (0.5, 0.3, 1.6), (1.7, 0.9, 0.2)])
 def test_levers_of_different_lengths_keep_their_clearance(levers):
-    """As above, but the positions of the levers come from `arm.points`. Plans for these arms keep
-    their distance too.
+    """The clearance is a tight bound here too, compared with positions from `arm.points`, and plans
+    keep their distance.
     """
     rng, arm = np.random.default_rng(16), three_lever(levers)
     share = np.linspace(0, 1, 301)[:, None]
@@ -293,7 +293,7 @@ def test_clearance_is_found_where_the_distance_hardly_changes(H):
 
 
 def test_exact_distance_of_a_resting_arm_counts_as_kept():
-    """At the borderline: a distance that is exactly kept counts as kept, the next larger one does
+    """At the border, a distance that is kept exactly counts as kept; the next larger number does
     not.
     """
     q, H = np.array([1.0, 2.0, 1.5]), (1.3, 1.2)
@@ -380,7 +380,7 @@ def test_nearest_of_several_obstacles_counts():
 
 @pytest.fixture(scope="module")
 def two_drawn():
-    """Random tasks with a second obstacle that leaves start and target free."""
+    """Random tasks with a second, random obstacle, before or after the first."""
     rng, found = np.random.default_rng(16), []
     for q0, K1, H in tasks(max(TASKS // 2, 24), seed=17):
         second = rng.uniform(-2.5, 2.5, 2)
@@ -449,7 +449,7 @@ def drawn():
 
 @pytest.fixture(scope="module")
 def answers(drawn):
-    """(q0, target, obstacle, plan) of the random tasks."""
+    """The random tasks with their plans: (q0, target, obstacle, plan)."""
     return [(*task, plan(ARM, *task)) for task in drawn[:TASKS]]
 
 
@@ -748,7 +748,8 @@ def test_along_returns_the_postures_of_a_path():
 
 def test_S_grows_linearly_along_a_path():
     path = np.array([(0, 1, 0), (0.5, 0, -1), (-1, 0.2, 0)])
-    q = along(path, np.linspace(0, 1, 43))  # S is 2.5 and 2.7, so no sample is at a corner
+    # the two parts have S = 2.5 and 2.7, so no sample is at the corner
+    q = along(path, np.linspace(0, 1, 43))
     S = abs(np.diff(q, axis=0)).sum(axis=-1)
     inner = np.delete(S, np.searchsorted(np.linspace(0, 1, 43), 2.5 / 5.2) - 1)
     np.testing.assert_allclose(inner, 5.2 / 42, rtol=1e-12)
@@ -781,7 +782,7 @@ def test_other_arms_are_refused(name):
             ARMS[name](arm)
 
 
-FAR = (1.2, 1.9)  # an obstacle that leaves room
+FAR = (1.2, 1.9)  # an obstacle that is not in the way
 GOAL = (1.8, 0.6)
 WRONG = {
     "a posture past its limit": (lambda: plan(ARM, [1, 2, 4], GOAL), "from 0 to 180 degrees"),
@@ -800,7 +801,7 @@ WRONG = {
     "two targets": (lambda: plan(ARM, Q0, [GOAL] * 2), r"target.*a single point.*\(2,\)"),
     "NaN obstacle": (lambda: plan(ARM, Q0, GOAL, (1, np.nan)), "obstacle.*nan"),
     "obstacle too far away": (lambda: plan(ARM, Q0, GOAL, (1e300, 0)), "metres, got 1e.300"),
-    "obstacle as words": (lambda: plan(ARM, Q0, GOAL, "ab"), "obstacle: wanted numbers"),
+    "obstacle as a string": (lambda: plan(ARM, Q0, GOAL, "ab"), "obstacle: wanted numbers"),
     "negative distance": (lambda: plan(ARM, Q0, GOAL, (1, 2), -0.1), "-0.1"),
     "distance 0": (lambda: plan(ARM, Q0, GOAL, (1, 2), 0), "distance: wanted one positive length"),
     "NaN distance": (lambda: plan(ARM, Q0, GOAL, (1, 2), np.nan), "distance.*nan"),
@@ -840,12 +841,12 @@ WRONG = {
     "no radius": (lambda: via_points((1, 2), (2, 1), FAR, None), "radius: wanted"),
     "radius of a via path": (lambda: via_path(ARM, Q0, GOAL, FAR, 0), "radius: .*positive.*0"),
     "two starts": (lambda: via_path(ARM, [Q0, Q0], GOAL, FAR), r"q0: .*\(2, 3\)"),
-    "limited by words": (lambda: via_path(ARM, Q0, GOAL, FAR, 0.1, "no"), "limited: .*'no'"),
+    "limited as a string": (lambda: via_path(ARM, Q0, GOAL, FAR, 0.1, "no"), "limited: .*'no'"),
     "quadrilaterals of a batch": (
         lambda: in_quadrilateral(ARM, [Q0] * 4, Q0, FAR),
         r"q0: wanted a single .*\(4, 3\)",
     ),
-    "swept by nothing": (lambda: swept(ARM, Q0, None, FAR), "q1: wanted numbers"),
+    "swept without a second posture": (lambda: swept(ARM, Q0, None, FAR), "q1: wanted numbers"),
 }
 
 
@@ -949,7 +950,7 @@ def test_plans_with_mismatched_parts_are_refused(wrong):
         a_plan(**wrong)
 
 
-def test_unchecked_path_shows_the_nearest_approach():
+def test_nearest_approach_matches_the_clearance():
     rng, through = np.random.default_rng(31), 0
     for _ in range(40):
         q0, target, H = rng.uniform(0, np.pi, 3), rng.uniform(-1, 2.5, 2), rng.uniform(-1, 2, 2)

@@ -47,7 +47,7 @@ def test_ik_returns_every_solution_in_its_row(case):
     [c for c in CASES if c["reachable"]],
     ids=[f"{i}-{case['kind']}" for i, case in enumerate(CASES) if case["reachable"]],
 )
-def test_within_equals_the_oracle(case):
+def test_within_matches_the_oracle(case):
     rows = IRB140.ik(transform(case["T"], mm))
     for solution in case["solutions"]:
         q, inside = np.array(solution["q"]), solution["representatives_in_limits"]
@@ -92,7 +92,7 @@ CARTESIAN = [law for law in MOTIONS if law not in ("task1", "PTP s->e", "LIN-LIN
 
 
 @pytest.mark.parametrize("law", CARTESIAN)
-def test_motions_equal_the_oracle(law):
+def test_motions_match_the_oracle(law):
     case = MOTIONS[law]
     poses = motion(law)
     q = follow(IRB140, IRB140.ik(poses), IRB140.branch(*case["flags"]))
@@ -118,7 +118,7 @@ def test_motions_end_at_the_goal():
         assert last["t"] == 20.0 and turns(row, last["q"]).max() < 1e-9
 
 
-def test_ptp_equals_the_oracle():
+def test_ptp_matches_the_oracle():
     case = MOTIONS["PTP s->e"]
     row = IRB140.branch(*case["flags"])
     start, goal = IRB140.ik(POSES["task3_s"])[row], IRB140.ik(POSES["task3_e"])[row]

@@ -680,7 +680,7 @@ def test_load_or_torque_that_turns_the_rotor_too_fast_is_refused(sign):
     motor = Stepper(torque=1e3, damping=2, inertia=1e-3, rise=0)
     assert motor.run([1e-3], [1], load=2 * sign * FASTEST).lost != 0
     with pytest.raises(
-        ValueError, match=r"^load: wanted one that turns the rotor at no more than 1e"
+        ValueError, match=r"^load: wanted a value that turns the rotor at no more than 1e"
     ):
         motor.run([1e-3], [1], load=2.002 * sign * FASTEST)
     strong = {"damping": 1, "inertia": 1e-9, "rise": 0}

@@ -22,8 +22,8 @@ class Arm(Sealed):
     """A robot arm with n joints. q (..., n) is in radians, metres for a prismatic joint.
 
     name           its name in figures
-    geometry       its links, and what follows from them: see `geometry.py`; or a tuple of links,
-                   from which the arm makes a geometry without an inverse
+    geometry       its links and the quantities derived from them (see `geometry.py`); or a tuple of
+                   links, from which the arm makes a geometry without an inverse
     limits         (n, 2), lowest and highest value of each joint; read-only
     speed_limits   (n,), greatest speeds in rad/s or m/s; read-only; None if they are not known
 
@@ -86,8 +86,8 @@ class Arm(Sealed):
 
     @property
     def reach(self) -> float:
-        """The greatest distance in metres from axis 1 of the point that the arm carries (the wrist
-        centre, or the tool of an arm without a wrist).
+        """The greatest distance in metres between axis 1 and the point that the arm carries (the
+        wrist centre, or the tool of an arm without a wrist).
         """
         return self.geometry.reach
 
@@ -127,7 +127,7 @@ class Arm(Sealed):
         last is the flange.
 
         q (..., n) -> Transform of shape (..., n + 1). A NaN in q makes its frame and all later ones
-        NaN. The UserWarning is that of `fk`.
+        NaN. It warns as `fk` does.
         """
 
         def frames(joints: Sequence[Any]) -> list[Any]:

@@ -17,7 +17,7 @@ from .scara import ScaraPose
 from .verdicts import SENTENCES
 
 TURN = 2 * np.pi
-SLACK = 1e-9  # a joint past its limit by no more than this counts as at its limit
+SLACK = 1e-9  # a joint past its limit by no more than this counts as being at it
 
 
 def within(arm: Arm, q: ArrayLike) -> Bools:
@@ -42,7 +42,7 @@ def representative(arm: Arm, q: ArrayLike) -> Floats:
     q (..., n) -> (..., n). A prismatic joint has only one value.
 
     >>> from robokin import IRB140, deg, representative
-    >>> q = np.array([0, 0, -300, 0, 0, 0]) * deg  # joint 3 has room from -230 to 50 degrees
+    >>> q = np.array([0, 0, -300, 0, 0, 0]) * deg  # joint 3 ranges from -230 to 50 degrees
     >>> (representative(IRB140, q) / deg).round(1).tolist()
     [0.0, 0.0, 60.0, 0.0, 0.0, 0.0]
     """
@@ -189,7 +189,7 @@ def _least(options: Floats, q: Floats) -> Floats:
 
 def _chooser(arm: Arm) -> Callable[[Floats, Floats], Floats]:
     """The function that chooses the free joints of rows near a posture; for an arm without a closed
-    form it changes nothing.
+    form it returns the rows unchanged.
     """
     if isinstance(arm, ClosedFormArm):
         return arm.geometry.choose_free_joints

@@ -22,11 +22,11 @@ def _at(x: float, y: float, z: float) -> Transform:
 #: ABB IRB-140. Chain, lengths and limits: 001, listings 1 and 7 (S1-05, S1-08). The chain is that
 #: of the document, with its frame `wrist` split in two (joints 4 and 5). Public models of this
 #: robot (ROS-Industrial abb_experimental, ARTE) differ: their upper arm is 360 mm long, ours 350
-#: mm, and their joint 2 leans forward at positive angles, ours backward. With q2 negated their
-#: flange is 10 mm from this one's at every posture; with the same q2 = 30 degrees, all other joints
-#: at zero, 563 mm (errata S1-g; companion 001, section 2). ARTE limits joint 5 to +-120 degrees. We
+#: mm, and their joint 2 leans forward at positive angles, ours backward. With q2 negated, their
+#: flange is 10 mm from ours at every posture; with q2 = 30 degrees in both and all other joints at
+#: zero, 563 mm (errata S1-g; companion 001, section 2). ARTE limits joint 5 to +-120 degrees. We
 #: keep the document's values. It states no speeds. Those of joints 3 and 4 are our choice, below
-#: the 260 and 360 of the public models; we did not have the maker's data sheet.
+#: the 260 and 360 of the public models; we did not have the manufacturer's data sheet.
 IRB140 = spherical_wrist(
     "IRB-140",
     links=(
@@ -89,7 +89,7 @@ def itmo_arm(d1: float, a2: float, d4: float, d6: float) -> ClosedFormArm:
 
 
 #: Source 004 states neither the lengths nor their unit. Its printed matrix (12) gives d4 = d6 = 20
-#: and d1 + a2 = 20. We split the sum into equal halves and take centimetres (errata S4-j).
+#: and d1 + a2 = 20. We split the sum into equal halves and assume centimetres (errata S4-j).
 ITMO6R = itmo_arm(d1=100 * mm, a2=100 * mm, d4=200 * mm, d6=200 * mm)
 
 
@@ -98,7 +98,7 @@ def spbu_arm(l1: float, l2: float) -> ClosedFormArm:
     vertical, joint 2 tilts link 1 away from it, and at joint 3 = 0 link 2 is perpendicular to link
     1. The limits are the document's domain. ValueError: a length that is not positive.
 
-    The first matrix of the document has alpha = -90 degrees; the +90 of its text puts the tool
+    The first matrix of the document has alpha = -90 degrees; the +90 in its text puts the tool
     below the floor (errata S0-a).
     """
     return elbow_arm(
@@ -125,8 +125,8 @@ def loader_arm(A: float, B: float) -> ClosedFormArm:
     The document's posture has the elbow up, 0 <= beta <= 180 degrees: row `arm.branch(+1, -1)`. In
     that row alpha is atan2(y, x) in all nine cells of table 1 (errata S3-p; in the middle cell, x =
     y = 0, it is free and `ik` returns 0), and beta and gamma are given by (3) and (4). The limits
-    of alpha are those of the document; those of beta and gamma are what (3) and (4) give for z >=
-    0. Joint alpha has no mechanical stop: the shortest turn (errata S3-q) may exceed its limits.
+    of alpha are those of the document; those of beta and gamma are the ranges of (3) and (4) for z
+    >= 0. Joint alpha has no mechanical stop: the shortest turn (errata S3-q) may exceed its limits.
     `robokin.jobs.steppers.out_of_reach` checks the document's conditions on the gripper's point.
 
     Source: 003, paper 1, (1) to (4), table 1, figure 3.

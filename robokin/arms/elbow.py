@@ -121,8 +121,9 @@ class Elbow(NamedTuple):
 
     @classmethod
     def measured(cls, points: Floats, axes: Floats, point: Floats, carried: str) -> "Elbow":
-        """Measure from a point on each of the three axes, the axes, and the carried point, all at q
-        = 0. ValueError: directions other than those in `elbow_arm`, or a link of length zero.
+        """Measure an arm from a point on each of the three axes, the axes, and the carried point,
+        all at q = 0. ValueError: directions other than those in `elbow_arm`, or a link of length
+        zero.
         """
         for number, axis, along in ((1, axes[0], 2), (2, axes[1], 1), (3, axes[2], 1)):
             parallel(number, axis, along)
@@ -131,11 +132,9 @@ class Elbow(NamedTuple):
             raise ValueError(f"links: wanted axis 1 through the origin, {got}")
         (ux, _, uz), (fx, _, fz) = points[2] - points[1], point - points[2]
         upper, fore = float(np.hypot(ux, uz)), float(np.hypot(fx, fz))
-        for lever, length in (("upper arm", upper), ("forearm", fore)):
+        for lever, length in (("an upper arm", upper), ("a forearm", fore)):
             if length < 1e-9:
-                raise ValueError(
-                    f"links: wanted a {lever} longer than 0, got {length:g} m at q = 0"
-                )
+                raise ValueError(f"links: wanted {lever} longer than 0, got {length:g} m at q = 0")
         shoulder_x, _, shoulder_z = points[1].tolist()
         reach, lateral = abs(shoulder_x) + upper + fore, float(point[1])
         return cls(
@@ -209,7 +208,7 @@ class Elbow(NamedTuple):
         return [q1, q2, q3], (cos1, sin1), (cos_b, sin_b)
 
     def radius(self, q: Floats) -> Floats:
-        """The distance of the point in front of axis 1 at q (..., 3 or more); negative behind."""
+        """How far the point is in front of axis 1 at q (..., 3 or more); negative behind it."""
         elevation = self.upper_angle + self.sign2 * q[..., 1]
         ahead = self.upper * np.cos(elevation) + self.fore * np.cos(elevation + self.bend(q))
         return self.shoulder_x + ahead
@@ -254,7 +253,7 @@ def parallel(number: int, axis: Floats, along: int) -> None:
 
 
 def rotated(cosine: Any, sine: Any, angle: float) -> Pair:
-    """The pair (cosine, sine) of an angle plus a constant angle."""
+    """Add a constant angle to an angle given by its cosine and sine; return the new pair."""
     if angle == 0:
         return cosine, sine
     c, s = np.cos(angle), np.sin(angle)

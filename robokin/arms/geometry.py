@@ -49,7 +49,7 @@ class ClosedForm(Geometry, Protocol):
     """The additional attributes of a geometry with a closed-form inverse.
 
     branches   (rows, flags) of +-1, read-only: the configuration of each row
-    carried    what the first joints position: "wrist centre", "point", ...
+    carried    the point that the first joints position: "wrist centre", "point", ...
 
     The names that `gap` and `singularities` return are keys of `verdicts.SENTENCES`.
     `show/js/geometries.js` has the same inverse for pages.
@@ -88,8 +88,8 @@ class Chain(Sealed):
     @classmethod
     def measured(cls, links: tuple[Link, ...], limits: Floats) -> "Chain":
         """Measure links with the limits of their joints (n, 2). The reach is the sum of the lengths
-        and strokes after joint 1; a part that does not move relative to axis 1 counts with its
-        distance from it. ValueError: a flange that never leaves axis 1.
+        and strokes after joint 1; of a part that does not move relative to axis 1, only the
+        distance from the axis counts. ValueError: a flange that never leaves axis 1.
         """
         first, *others = links
         start = first.after @ others[0].before if others else first.after
@@ -109,7 +109,7 @@ class Gap(NamedTuple):
 
     kind     the key of a sentence in `verdicts.SENTENCES`
     metres   how far the target is beyond the border; 0 where the reason is not a length
-    what     what should be positioned: "the wrist centre", "the target"
+    what     the point to be positioned: "the wrist centre", "the target"
     degrees  the tilt of the tool, where that is the reason
     """
 

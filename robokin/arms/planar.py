@@ -1,5 +1,5 @@
-"""Three levers in the plane z = 0: the arm of source 003, OB, BA, AK, with one more joint than a
-point in the plane needs.
+"""Three levers in the plane z = 0: the arm of source 003, with levers OB, BA, AK and one more joint
+than a point in the plane needs.
 """
 
 from dataclasses import dataclass
@@ -17,7 +17,7 @@ from .geometry import ROUNDING, coordinates, distance, one_point
 from .link import Link
 
 Z = np.array([0.0, 0.0, 1.0])
-MOST_ROWS = 2_000_000  # greatest number of rows of a table, which takes one or two seconds
+MOST_ROWS = 2_000_000  # greatest number of rows of a table; they take one or two seconds
 PORTION = 1000  # tasks that are computed together if each compares hundreds of postures
 
 
@@ -53,6 +53,7 @@ class ThreeLeverGeometry(Sealed):
     levers  the lengths of OB, BA, AK
     lever   their mean, the unit of lengths such as tolerances and the document's L/7
     inner   |OB - BA| + AK, one lever length if the levers are equal; a point must be farther away
+            than this
     """
 
     target = np.ndarray
@@ -138,11 +139,11 @@ class ThreeLeverArm(Arm):
         """The posture that reaches the point with the free angle alpha: point (...), alpha (...) ->
         q (..., 3).
 
-        NaN where there is none (see `alpha_range`). `within(arm, q)` shows which angles lie in 0 to
-        180 degrees: alpha and beta always do, gamma often does not. For one point and many alphas:
-        `family(point, alphas)`; for many points and many alphas: `family(points[:, None], alphas)`.
-        Source: 003, (4)-(14) and table 3, with errata S3-a (the direction of K) and S3-d (its last
-        row) corrected.
+        NaN where there is none (see `alpha_range`). `within(arm, q)` shows which angles lie between
+        0 and 180 degrees: alpha and beta always do, gamma often does not. For one point and many
+        alphas: `family(point, alphas)`; for many points and many alphas: `family(points[:, None],
+        alphas)`. Source: 003, (4)-(14) and table 3, with errata S3-a (the direction of K) and S3-d
+        (its last row) corrected.
         """
         (KO, phi), angles = self._polar(point), floats(alpha, "alpha", finite=False)
         broadcast("point and alpha", KO.shape, angles.shape)
@@ -203,7 +204,7 @@ class ThreeLeverArm(Arm):
         gamma0, beta0, alpha0 = np.moveaxis(np.broadcast_to(before, (*shape, 3)), -1, 0)
         low, high = (np.broadcast_to(end, shape) for end in self.alpha_range(point, limited))
 
-        # beta keeps its previous value: then A is at the distance OA from O, on either side of the
+        # If beta keeps its previous value, the distance OA is fixed, and A is on either side of the
         # line OK.
         BAO, at_A = _beside(b, a, beta0), _angle(_across(a, b, beta0), c, KO)
         alphas = np.stack(
@@ -382,7 +383,8 @@ def _angle(a: Floats | float, b: Floats | float, c: Floats | float) -> Floats:
 
 
 def _spare(a: Floats | float, b: Floats | float, c: Floats | float) -> Any:
-    """How much longer two sides are than the third, rounded in the same way for every angle, so
-    that all angles of a nearly flat triangle belong to the same triangle and the chain closes.
+    """How much longer two sides together are than the third, rounded in the same way for every
+    angle, so that all angles of a nearly flat triangle belong to the same triangle and the chain
+    closes.
     """
     return np.maximum(a, b) - c + np.minimum(a, b)

@@ -1,4 +1,4 @@
-"""Six-axis arms with a spherical wrist, with eight closed-form solutions.
+"""Six-axis arms with a spherical wrist and eight closed-form solutions.
 
 The three wrist axes meet at one point, the wrist centre. It does not move when joints 4 to 6 turn,
 so the problem splits in two: position the wrist centre with joints 1 to 3, then orient the tool
@@ -167,8 +167,8 @@ class Wrist(NamedTuple):
 
     @classmethod
     def measured(cls, points: Floats, axes: Floats, flange: Transform) -> tuple["Wrist", Floats]:
-        """Measure from a point on each of the axes 4 to 6, the axes, and the flange; return also
-        the wrist centre. ValueError: directions other than those in `spherical_wrist`.
+        """Measure a wrist from a point on each of the axes 4 to 6, the axes, and the flange; also
+        return the wrist centre. ValueError: directions other than those in `spherical_wrist`.
         """
         (e4, e5, e6), (p4, p5, p6) = axes, points
         parallel(5, e5, 1)

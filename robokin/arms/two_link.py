@@ -78,7 +78,7 @@ class TwoLinkGeometry(Sealed):
 
     def ik(self, pose: Any) -> Floats:
         """See `ClosedFormArm.ik`: points or Transform of shape (...) -> (..., 2, 2). Where equal
-        links fold and the tip is at the base, q1 is free, and set to 0.
+        links fold and the tip is at the base, q1 is free and is set to 0.
         """
         x, y, d, off = self._way(pose)
         ahead, turn, exists = two_levers(self.l1, self.l2, d)

@@ -1,5 +1,5 @@
-"""The words of a verdict: all sentences that `explain` (in `branches`) uses, so that a page can
-use them too.
+"""The sentences of a verdict: all that `explain` (in `branches`) can say, kept here so that a page
+can use them too.
 
 The facts are in braces: {what} is the point to be positioned, {gap} is a length with its unit,
 {degrees} an angle; then {row}, {flags}, {reason}, {hint}, {facts}, {joint}, {value}, {over} and

@@ -56,8 +56,8 @@ Exit status: 0    every task solved
 BIG = 1_000_000  # bytes: a file up to this size is solved quickly
 
 log = logging.getLogger("robokin.jobs")  # writes to output.log
-answers = log.getChild("answers")  # writes also to standard output
-end = log.getChild("end")  # writes also to standard error; then the run ends
+answers = log.getChild("answers")  # also writes to standard output
+end = log.getChild("end")  # also writes to standard error; then the run ends
 
 
 def main(argv: Sequence[str] | None = None) -> int:
@@ -240,7 +240,7 @@ def _tell(text: str) -> None:
 
 
 def _first(rows: Floats) -> str:
-    """The first rows of an array for the log, as many as the points that a report shows."""
+    """The first POINTS_SHOWN rows of an array, as text for the log."""
     more = f" and {len(rows) - POINTS_SHOWN} more" if len(rows) > POINTS_SHOWN else ""
     return f"{rows[:POINTS_SHOWN].tolist()}{more}"
 

@@ -21,7 +21,7 @@ from .._arrays import ArrayLike, Floats, Ints, Sealed, frozen
 from .._validate import floats, length, number, positive, short, whole
 from ..arms.geometry import ROUNDING
 
-# These limits keep every call below a few seconds:
+# These limits keep every call to a few seconds:
 MOST = 1_000  # objects on the belt
 PLACES = 500  # places in a window
 ARMS = 100
@@ -55,7 +55,7 @@ class Trips(Sealed):
 
     objects  (k,) the indices in `offsets` of the objects that it picks
     places   (k,) the indices in the arm's window of the places where it picks them
-    leaves   (k,) when it leaves its bin, to be at the place together with the object
+    leaves   (k,) when it leaves its bin, so as to reach the place together with the object
     meets    (k,) when it picks the object
     backs    (k,) when it is back at its bin and free again
     """
@@ -82,7 +82,7 @@ def serve(
     offsets     (n,) in m, increasing: distances before the first arm's window at time 0
     v           speed of the belt, m/s
     window      (m,) in m, increasing: the places along y where the first arm can pick an object
-    ways        (m,) in s: the time from the arm's bin to each place, and again for the way back
+    ways        (m,) in s: the time from the arm's bin to each place, and the same for the way back
     arms        the number of equal arms along the belt, `pitch` metres apart
     pitch       at least the window's length (the default), so that no two windows overlap
     first_come  which rule to use. A free arm picks the object with which it is back soonest, or,
@@ -126,7 +126,7 @@ def _trips(arrivals: Floats, delays: Floats, ways: Floats, first_come: bool) -> 
     """The trips of one arm.
 
     arrivals  (n,) when the objects reach its window
-    delays    (m,) how much later they are at each place
+    delays    (m,) how much later they arrive at each place
     """
     free, trips, left = 0.0, [], np.ones(len(arrivals), dtype=bool)
     slack = (delays - ways).max()  # an object can be picked if free <= arrival + slack

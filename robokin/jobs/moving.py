@@ -96,7 +96,7 @@ def plan_moving(
 
 
 def _positions(H: Floats, v: Floats, begin: Floats, end: Floats) -> Floats:
-    """The obstacle at the beginning (n,) and the end (n,) of motions: (2, 1, n, 2)."""
+    """The obstacle's positions at the beginning (n,) and the end (n,) of motions: (2, 1, n, 2)."""
     return (H + np.stack([begin, end])[..., None] * v)[:, None]
 
 
@@ -138,7 +138,7 @@ def _search(
     v: Floats,
     distance: float,
 ) -> Found | None:
-    """The first path through the grid of postures that is found; None if there is none."""
+    """The first path found through the grid of postures; None if there is none."""
     goals = target_curve(arm, K1)
     axes, start = grid_axes(arm, q0)
     size = [len(axis) for axis in axes]

@@ -23,7 +23,7 @@ Method: TypeAlias = Callable[[ThreeLeverArm, ArrayLike, ArrayLike], Floats]
 
 STRIDE = 0.1  # lever lengths: the gripper's greatest step
 TURN = 10 * deg  # a joint's greatest rotation in one step
-STEPS = 200  # a motion that has not arrived by then has failed
+STEPS = 200  # a motion that has not arrived after this many steps has failed
 ARRIVED = 1e-9  # lever lengths: the gripper this near to the target has arrived
 FLAT = 1e-4  # lever lengths; damps pseudo-inverses, so that a stretched arm causes no division by 0
 NEAR = 0.5  # lever lengths: an obstacle farther away than this stops no joint
@@ -61,7 +61,7 @@ def race(
         got = f"{targets.shape} and {start.shape}"
         raise ValueError(f"targets and start: wanted shapes (n, 2) and (3,), got {got}")
     if not isinstance(methods, Mapping) or not all(map(callable, methods.values())):
-        raise ValueError(f"methods: wanted names and functions, got {short(methods)}")
+        raise ValueError(f"methods: wanted a dict of name -> function, got {short(methods)}")
     if len(set(map(id, methods.values()))) < len(methods):  # they would share random numbers
         raise ValueError(f"methods: wanted each function once, got {short(methods)}")
     runs = {}
@@ -117,7 +117,7 @@ def pseudo_inverse(arm: ThreeLeverArm, target: ArrayLike, previous: ArrayLike) -
 
 def gradient_projection(arm: ThreeLeverArm, target: ArrayLike, previous: ArrayLike) -> Floats:
     """Like `pseudo_inverse`, plus a motion that does not move the gripper, dq = J+ e + (1 - J+ J)
-    g: the part in the null space of J of the gradient g of a secondary objective. The objective is
+    g: the gradient g of a secondary objective, projected onto the null space of J. The objective is
     to stay in the middle of the limits. Source: 003, I.2.1 (Fu Rong); A. Liegeois, 1977.
     """
     target, previous = _asked(arm, target, previous)
@@ -216,7 +216,7 @@ def _go(
     previous: Floats,
     step: Callable[[Floats, Floats, Floats], Floats],
 ) -> Floats:
-    """Go to the target step by step: `step(q, J, e)` turns the gripper's step into the joints'
+    """Go to the target step by step: `step(q, J, e)` converts the gripper's step into the joints'
     step. A joint stops at its limits.
     """
     q = previous

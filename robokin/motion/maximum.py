@@ -34,8 +34,8 @@ def refined_maximum(
 
     `function` maps an array (k,) to an array (k,), NaN where it has no value. For a minimum, negate
     the function. TypeError: `function` is not callable. ValueError: a range that is not finite, a
-    result of another shape, no value at all, or a maximum that does not converge, for example
-    beside a pole.
+    result of another shape, no value at all, or a maximum that does not converge, for example near
+    a pole.
 
     >>> value, at = refined_maximum(lambda t: t * np.exp(-t), 0, 3, 3)
     >>> round(value, 5), round(at, 2)

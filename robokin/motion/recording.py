@@ -53,7 +53,7 @@ class Jump(Sealed):
 
 class Extreme(NamedTuple):
     """The greatest (or lowest) value of each joint, and the time in seconds of the first sample
-    that has it: both (..., n). NaN for a joint without values.
+    with that value: both (..., n). NaN for a joint without values.
     """
 
     value: Floats
@@ -75,9 +75,9 @@ class Recording(Sealed):
     leaps    a `Jump` for each jump in position
     jumps    a `Jump` for each jump in speed
 
-    `recording[i]` is a part of the batch. All arrays are read-only. If you have more exact speeds
-    or accelerations than differences give, use `dataclasses.replace(recording, v=v)`. TypeError,
-    ValueError: parts of another type or shape.
+    `recording[i]` is a part of the batch. All arrays are read-only. If you have more accurate
+    speeds or accelerations than differences give, use `dataclasses.replace(recording, v=v)`.
+    TypeError, ValueError: parts of another type or shape.
     """
 
     arm: Arm
@@ -265,7 +265,7 @@ def _parts(steps: Floats, t: Floats, prismatic: Bools) -> Bools:
         found = np.zeros(steps.shape, dtype=bool)
         sides = _shifted(speeds, -1), _shifted(speeds, 1)
         out = np.fmax(speeds - np.fmax(*sides), np.fmin(*sides) - speeds)
-        for c, j in np.argwhere((out > least).any(axis=1)):  # no other joint jumps
+        for c, j in np.argwhere((out > least).any(axis=1)):  # only these joints can jump
             column = speeds[c : c + 1, :, j : j + 1]
             changes = abs(np.diff(column[0, :, 0]))
             changes = np.sort(changes[np.isfinite(changes)])
@@ -345,10 +345,10 @@ def _jumps(speeds: Floats, t: Floats) -> list[Found]:
     """The jumps in the speeds between samples (C, N - 1, n): changes far greater than the changes
     beside them.
 
-    The changes of a smooth motion are all about acceleration times step. We compare with those two
-    samples away, since an adjacent change may share a corner that lies between two samples. A
-    change below a hundredth of the greatest speed is not a jump, nor is one without neighbours on
-    both sides.
+    The changes of a smooth motion are all roughly the acceleration times the step. We compare with
+    those two samples away, since an adjacent change may share a corner that lies between two
+    samples. A change below a hundredth of the greatest speed is not a jump, nor is one without
+    neighbours on both sides.
     """
     change = abs(np.diff(speeds, axis=1))
     beside = np.maximum(_shifted(change, -2), _shifted(change, 2))
@@ -411,7 +411,7 @@ def _excess(over: Floats) -> Floats:
 
 
 def _extreme(values: Floats, t: Floats) -> Extreme:
-    """The greatest of values (..., N, n) over the samples, and its time."""
+    """The greatest of the values (..., N, n) over the samples, and its time."""
     values = np.where(np.isnan(values), -np.inf, values)
     at = values.argmax(axis=-2)
     greatest = np.take_along_axis(values, at[..., None, :], axis=-2)[..., 0, :]

@@ -1,4 +1,4 @@
-"""The three-lever arm beside a point obstacle H: collisions, via points, clearance, and a path
+"""The three-lever arm near a point obstacle H: collisions, via points, clearance, and a path
 around it.
 
 `plan` is the control system of source 003, figure 33; the other functions are its parts. The names

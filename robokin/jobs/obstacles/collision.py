@@ -1,5 +1,5 @@
-"""Measures how near the levers come to the obstacle, and where it is; `planner` decides what is
-safe.
+"""Measurements of how near the levers come to the obstacle and where it is; `planner` decides what
+is safe.
 """
 
 from collections.abc import Callable
@@ -15,11 +15,11 @@ from .arguments import read_angles, read_obstacles, read_path, read_point, read_
 LEVERS = ("OB", "BA", "AK")
 TOLERANCE = 1e-6  # lever lengths: the accuracy of a clearance
 CLOSE = 1e-9  # lever lengths: `keeps` does not distinguish distances that differ by less
-WORK = 1_000_000  # pieces of motions, or postures of a grid, in one call: about 1 s
+WORK = 1_000_000  # greatest number of motion pieces, or grid postures, in one call: about 1 s
 PORTION = 50_000  # pieces measured at a time, to limit memory
 
 
-# --- Where is the obstacle? -----------------------------------------------------------------------
+# --- Location of the obstacle ---------------------------------------------------------------------
 
 
 def in_quadrilateral(
@@ -67,7 +67,7 @@ def locate(P: ArrayLike, Q: ArrayLike, from_P: float, from_Q: float) -> Floats:
     return P + from_P * np.concatenate([np.cos(q1), np.sin(q1)], axis=-1)
 
 
-# --- How near does the arm come? ------------------------------------------------------------------
+# --- Clearance of the arm -------------------------------------------------------------------------
 
 
 def distances(arm: ThreeLeverArm, q: ArrayLike, H: ArrayLike) -> Floats:
@@ -114,17 +114,17 @@ def keeps(arm: ThreeLeverArm, a: ArrayLike, b: ArrayLike, H: ArrayLike, distance
     return motions_keep(arm, a, b, H, distance).reshape(shape[:-1])
 
 
-# --- Versions without argument checks, and for moving obstacles -------------------------
+# --- Versions without argument checks, also for moving obstacles ----------------------------------
 
 
 def lever_distances(arm: ThreeLeverArm, q: Floats, H: Floats) -> Floats:
-    """`distances` of postures q (..., 3) from H (..., 2)."""
+    """`distances` for postures q (..., 3) and H (..., 2)."""
     q = np.broadcast_to(q, (*np.broadcast_shapes(q.shape[:-1], H.shape[:-1]), 3))
     return np.moveaxis(_seen(arm, np.moveaxis(q, -1, 0), H)[0], 0, -1)
 
 
 def motion_clearances(arm: ThreeLeverArm, a: Floats, b: Floats, H: Floats) -> Floats:
-    """The `clearance` of n motions from postures a (n, 3) to b (n, 3): (n, 3).
+    """`clearance` for n motions from postures a (n, 3) to b (n, 3): (n, 3).
 
     H is (m, 1, 2) for m fixed obstacles, or (2, m, n, 2) for their places at the start and at the
     end of each motion, between which they move at constant velocity.
@@ -141,7 +141,7 @@ def motion_clearances(arm: ThreeLeverArm, a: Floats, b: Floats, H: Floats) -> Fl
 
 
 def motions_keep(arm: ThreeLeverArm, a: Floats, b: Floats, H: Floats, distance: float) -> Bools:
-    """`keeps` of n motions from postures a (n, 3) to b (n, 3): bool (n,). H is as for
+    """`keeps` for n motions from postures a (n, 3) to b (n, 3): bool (n,). H is as for
     `motion_clearances`.
     """
     a, b = np.broadcast_arrays(a, b)

@@ -1,7 +1,7 @@
-"""Decides which plan is safe, with the distances that `collision` measures.
+"""The choice of a safe plan, from the distances that `collision` measures.
 
-This is the control system of source 003: it plans the direct motion, a path over two via points, or
-a search.
+This is the control system of source 003: it plans the direct motion, a path through two via points,
+or a search.
 """
 
 from contextlib import suppress
@@ -49,7 +49,7 @@ def via_path(
     radius: float | None = None,
     limited: bool = True,
 ) -> Floats:
-    """The path K - K2 - K3 - K1 with the least movement for each part: (4, 3), NaN from the first
+    """The path K - K2 - K3 - K1 with the least movement on each part: (4, 3), NaN from the first
     point that is out of reach. The radius is L/7 by default. Source: 003, IV.
 
     A path through K2 and K3 guarantees nothing about the motion between them, nor about the levers

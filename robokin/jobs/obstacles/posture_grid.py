@@ -204,7 +204,7 @@ def way_back(steps: Sequence[Steps], node: Node, room: Floats | None = None) -> 
 
 def arrivals(axes: list[Floats], goals: Floats, steps: Steps) -> tuple[Ints, Ints]:
     """Nodes (m, 3) that the search reached, and the index (m,) of a goal in a cell adjacent to
-    each, by increasing S.
+    each, in order of increasing S.
     """
     below = np.stack(
         [

@@ -8,8 +8,8 @@ Example: the motors of the log loader (source 003, paper 1), from the points of 
     n = counts(q, per_degree)                # (stations, 3) whole pulses: the motor positions
     move = synchronised(n[0], n[1])          # or unsynchronised, or straight
     q_t = joint_values(move(t), per_degree)  # joint values at the times t, to draw
-    move.pulses()                            # for each motor: when, and in which direction
-    Stepper().run(times, signs).lost         # the steps that its rotor did not make
+    move.pulses()                            # for each motor: times and directions
+    Stepper().run(times, signs).lost         # the number of steps that the rotor lost
 
 The position of a motor is counted in pulses from the joint's zero. Whole pulses are computed from
 these positions and never from the angle of a single move, so that rounding errors do not add up

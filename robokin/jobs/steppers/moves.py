@@ -64,7 +64,7 @@ def shortest_turn(start: ArrayLike, goal: ArrayLike) -> Floats:
     """The shortest turn from one angle to another, in [-pi, pi] rad; positive is counter-clockwise.
 
     Source: 003, paper 1, the two conditions for alpha; the second one has the wrong sign for alpha2
-    < alpha1 (errata S3-q: from 170 to -170 degrees it turns -20 and not +20).
+    < alpha1 (errata S3-q: from 170 to -170 degrees it turns -20 instead of +20).
     """
     start, goal = floats(start, "start"), floats(goal, "goal")
     broadcast("start and goal", start.shape, goal.shape)
@@ -92,7 +92,7 @@ def joint_values(positions: ArrayLike, per_degree: ArrayLike) -> Floats:
         return floats(positions / per_degree * deg, "positions / per_degree")
 
 
-# ---- Moves: where each motor is at each time
+# ---- Moves: the position of each motor over time
 
 
 @dataclass(frozen=True, eq=False)

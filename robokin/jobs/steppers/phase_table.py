@@ -11,7 +11,7 @@ from .moves import COUNTED
 
 DRIVES = ("wave", "two-phase", "half-step")
 _FEWEST = {"unipolar": 3, "bipolar": 2}
-_DOCUMENTS = {"unipolar": 4, "bipolar": 2}  # windings of the motors of tables 1 and 2
+_DOCUMENTS = {"unipolar": 4, "bipolar": 2}  # windings of the motors in tables 1 and 2
 COLUMNS: Mapping[str, tuple[str, ...]] = MappingProxyType(
     {
         "unipolar": ("half winding a1", "half winding b1", "half winding a2", "half winding b2"),
@@ -30,7 +30,7 @@ def phases(drive: str, motor: str, windings: int | None = None) -> Ints:
     the document's motors, with columns as in `COLUMNS[motor]`.
 
     drive     "wave": one winding at a time; "two-phase": two neighbours, with more torque;
-              "half-step": one winding and two by turns: half the angle per pulse, so twice the
+              "half-step": one winding and two alternately: half the angle per pulse, so twice the
               pulses per degree
     motor     "unipolar": one column for each winding, 1 where it carries current. "bipolar": two
               columns for each, 1 at its positive end, -1 at its negative end. The document names

@@ -12,7 +12,7 @@ from .phase_table import DRIVES, energised, phases, read_windings
 
 ROTORS = ("active", "passive")
 SETTLED = 8.0  # time constants after which a rotor is at rest
-NEARLY = 3.0  # time constants until a current is within 5 % of its value
+NEARLY = 3.0  # time constants until a current is within 5 % of its final value
 FINE = (0.1, 0.25)  # integration step, as a fraction of the shortest mechanical time and of `rise`
 INTEGRATED = 100_000  # greatest number of steps of one run
 FASTEST = 1e9  # rad/s: the greatest speed that a load or torque may cause
@@ -111,7 +111,7 @@ class Stepper(Sealed):
     @property
     def commutation_frequency(self) -> float:
         """The frequency, pulses per second, above which a winding's current does not get within 5 %
-        of its value in one step; infinite if `rise` is 0. Source of the term: 003, II.3.1.
+        of its final value in one step; infinite if `rise` is 0. Source of the term: 003, II.3.1.
         """
         return 1 / (NEARLY * self.rise) if self.rise else math.inf
 
@@ -137,15 +137,15 @@ class Stepper(Sealed):
     def run(
         self, times: ArrayLike, signs: ArrayLike, load: float = 0.0, load_inertia: float = 0.0
     ) -> "RotorMotion":
-        """Simulate the rotor: it rests in the table's first row, gets the pulses, and comes to rest
-        again.
+        """Simulate the rotor: it rests in the table's first row, receives the pulses, and comes to
+        rest again.
 
         times, signs  (pulses,) as `Move.pulses` returns them: s, from 0 on, never decreasing, and
                       +1 or -1
         load          N m, like a weight on a drum: it always pulls backwards
         load_inertia  kg m^2, in addition to the rotor's
 
-        Fourth-order Runge-Kutta in equal steps from pulse to pulse; js/rotor.js does the same in a
+        Fourth-order Runge-Kutta in equal steps from pulse to pulse; js/rotor.js does the same on a
         page. ValueError: a run of more than `INTEGRATED` steps.
         """
         t, turns = floats(times, "times"), floats(signs, "signs")
@@ -295,7 +295,7 @@ def _integration_steps(
         raise ValueError(f"times: {wanted}, got one of {ends[-1]:.4g} s")
     for name, value in (("load", load), ("torque", torque)):
         if not abs(value) / damping <= FASTEST:
-            wanted = f"wanted one that turns the rotor at no more than {FASTEST:g} rad/s"
+            wanted = f"wanted a value that turns the rotor at no more than {FASTEST:g} rad/s"
             got = f"got {value:.4g} N m at a damping of {damping:.4g} N m s"
             raise ValueError(f"{name}: {wanted}, {got}")
     return gaps, steps

@@ -75,8 +75,8 @@ def misfit(l1: float, l2: float, q: ArrayLike, points: ArrayLike) -> Floats:
     """The distance in m of the tool at q (..., 3) from the points (..., 3) where it should be:
     (...). Infinite if a joint is past its limit, NaN if the posture does not exist.
 
-    This is what the printed program's seven checks are meant to test: they lack the absolute value,
-    and none of them tests joint 1 (errata S0-e).
+    The printed program's seven checks are meant to test this, but they lack the absolute value, and
+    none of them tests joint 1 (errata S0-e).
     """
     arm = spbu_arm(*_links(l1, l2))
     posture, p = floats(q, "q", 3, finite=False), floats(points, "points", 3)

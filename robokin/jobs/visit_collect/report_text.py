@@ -8,7 +8,7 @@ from .arm import UNDER, joint_travel_time, lowest_place
 from .solver import Result, fits, stops_of
 from .task import FAULTS_SHOWN, Task, and_more, coordinates
 
-# These limits keep a report readable:
+# This limit keeps a report readable:
 POINTS_SHOWN = 1_000
 
 

@@ -12,10 +12,10 @@ from ...arms.geometry import ROUNDING
 from .arm import UNDER, joint_travel_time, lowest_place, with_free_joints
 from .task import Task, TaskError
 
-# These limits keep every call below a few seconds:
+# These limits keep every call to a few seconds:
 EXACT_LIMIT = 16  # points; each additional point doubles the time and memory of the exact optimum
 NEAREST_LIMIT = 10_000  # points; the repeated search for the nearest compares n^2 / 2 moves
-ABOVE_LIMIT = 1_000  # points, if each of these moves also needs its lowest place
+ABOVE_LIMIT = 1_000  # points, if the lowest place of each of these moves is needed too
 
 
 @dataclass(frozen=True)
@@ -49,9 +49,9 @@ def collect(task: Task, *, short_way: bool = False, above_floor: bool = False) -
     Each point costs the time there and back. The cheapest points come first, with the lower index
     on a tie. This is the optimum (errata S0-r), unless p0 is on axis 1: there the cost of a point
     depends on the value that joint 1 has kept, and the cheapest next point may not be the best. A
-    time of exactly T counts. `above_floor` refuses points on whose way the tool would dip below the
-    floor. Source: 000, "Нахождение времени", task "сбора". TaskError: p0 on axis 1 and more than
-    NEAREST_LIMIT points (ABOVE_LIMIT with `above_floor`).
+    time of exactly T counts. `above_floor` refuses points for which the tool would dip below the
+    floor on the way. Source: 000, "Нахождение времени", task "сбора". TaskError: p0 on axis 1 and
+    more than NEAREST_LIMIT points (ABOVE_LIMIT with `above_floor`).
     """
     start = instance(task, Task, "task").q[0]
     if np.isnan(start).any():
@@ -69,7 +69,8 @@ def collect(task: Task, *, short_way: bool = False, above_floor: bool = False) -
 
 
 def visit(task: Task, *, short_way: bool = False, above_floor: bool = False) -> Result:
-    """Go to the nearest point that is not yet visited, with the lower index on a tie, until T.
+    """Go to the nearest point that is not yet visited, with the lower index on a tie, as long as T
+    permits.
 
     This is greedy, as in the document, and not always optimal (errata S0-q): see `best_visit`. It
     ends when the nearest point does not fit within T, since then none does; the printed program
@@ -83,7 +84,8 @@ def visit(task: Task, *, short_way: bool = False, above_floor: bool = False) -> 
 @np.errstate(over="ignore")
 def best_visit(task: Task, *, short_way: bool = False, above_floor: bool = False) -> Result:
     """The best visit: the most points within T, then the least time, then the lexicographically
-    first order. Times that differ only by rounding (1e-12) are equal. It is not in the document.
+    first order. Times that differ only by rounding (1e-12) count as equal. It is not in the
+    document.
 
     It is exact, by dynamic programming over the sets of visited points. ValueError: more than
     EXACT_LIMIT points, since each additional point doubles the work. `above_floor` is as in
@@ -261,8 +263,8 @@ def _dips(task: Task, start: Floats, end: Floats) -> Bools:
 
 @np.errstate(over="ignore")
 def _nearly_least(times: Floats, least: Floats) -> Bools:
-    """Which times are equal to the least one; times that differ only by rounding are equal, so that
-    every processor agrees.
+    """Which times are equal to the least one; times that differ only by rounding count as equal, so
+    that every processor agrees.
     """
     return times <= least * (1 + ROUNDING)
 

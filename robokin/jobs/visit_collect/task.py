@@ -16,11 +16,11 @@ from ..._validate import masked, short, text
 from .arm import LONGEST, SHORTEST, misfit, principal_postures, reasons_outside, workspace
 
 KEYS = ("L1", "L2", "T", "q'", "p0", "pi", "task")
-# These limits keep every call below a few seconds:
+# These limits keep every call to a few seconds:
 TASK_LIMIT = 300_000  # greatest number of points in a task
 FILE_LIMIT = 40_000_000  # bytes in a file
 # These limits keep messages readable:
-FAULTS_SHOWN = 10  # faults of one kind that are listed
+FAULTS_SHOWN = 10  # greatest number of faults of one kind that are listed
 
 
 class TaskError(ValueError):
@@ -242,7 +242,8 @@ def _triple(value: Any) -> bool:
     return isinstance(value, list) and len(value) == 3 and all(map(_number, value))
 
 
-RULES: dict[str, tuple[Callable[[Any], bool], str]] = {  # key -> its check, and what is wanted
+# key -> its check, and the wanted value in words
+RULES: dict[str, tuple[Callable[[Any], bool], str]] = {
     **dict.fromkeys(
         ("L1", "L2"),
         (
@@ -265,7 +266,7 @@ RULES: dict[str, tuple[Callable[[Any], bool], str]] = {  # key -> its check, and
 
 
 def _plain(value: Any, depth: int = 2) -> Any:
-    """Convert arrays and tuples, as a lesson gives them, to the lists of a file. Values that are
+    """Convert arrays and tuples, as a lesson gives them, to lists as in a file. Values that are
     too large or not numbers are unchanged; `faults` refuses them.
     """
     if isinstance(value, (np.ndarray, np.generic)):
