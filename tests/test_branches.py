@@ -570,7 +570,7 @@ def test_blend_stays_on_one_row():
 
 
 @pytest.mark.parametrize("arm", [m.arm for m in MACHINES] + [MIXED], ids=lambda arm: arm.name)
-def test_representative_is_inside_or_least_past_the_limits(arm):
+def test_representative_is_inside_the_limits_or_closest_to_them(arm):
     """Compared with a trial of all whole turns: the value inside the limits nearest to q, otherwise
     the one least past the limits.
     """

@@ -287,7 +287,7 @@ def test_p7_areas_agree_with_a_grid():
     assert _right("p7").startswith("Joint 2")
 
 
-def test_p8_only_one_elbow_keeps_its_limits():
+def test_p8_only_one_elbow_stays_inside_its_limits():
     omega = np.linspace(0, 2 * np.pi, 101)
     place = np.stack([0.2 + 0.07 * np.cos(omega), 0.07 * np.sin(omega), 0 * omega + 0.1], axis=-1)
     rows = SCARA.ik(ScaraPose(place, omega))

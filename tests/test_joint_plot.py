@@ -48,7 +48,7 @@ def test_curves_of_the_page_are_those_of_the_motion(arm, q):
     np.testing.assert_allclose(values(few, 1), 2 * at(few, found.v), rtol=0, atol=1e-3)
 
 
-def test_a_speed_limit_and_a_joint_limit_are_those_of_the_arm():
+def test_speed_and_joint_limits_are_those_of_the_arm():
     panels = plot_joints(record(IRB140, T, Q)).page["panels"]
     np.testing.assert_allclose(panels[0]["limits"], IRB140.limits / deg, atol=6e-4)
     speeds = np.stack([-IRB140.speed_limits, IRB140.speed_limits], axis=-1) / deg

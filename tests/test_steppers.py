@@ -37,8 +37,8 @@ from robokin.jobs.steppers import (
 CASES = [case for case in oracle("loader_arm")["cases"] if case["reachable"]]
 ARM = loader_arm(1.2, 1.0)
 PER_DEGREE = np.array([10.0, 20.0, 20.0])
-B = ((1.3, -0.9, 1.2), (-0.1, -0.2, 0.9))  # a straight path, and no motor turns back
-C = ((1.2, -1.0, 0.3), (0.4, 1.2, 0.3))  # a straight path, and two motors turn back
+B = ((1.3, -0.9, 1.2), (-0.1, -0.2, 0.9))  # a straight path, and no motor reverses
+C = ((1.2, -1.0, 0.3), (0.4, 1.2, 0.3))  # a straight path on which two motors reverse
 RANDOM = np.random.default_rng(8).integers(-3000, 3000, (40, 2, 3))
 PAIRS = [
     *RANDOM,

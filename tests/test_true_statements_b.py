@@ -675,7 +675,7 @@ def test_lab_and_exercise_3_state_the_same_accuracy():
 # --- The documents --------------------------------------------------------------------------------
 
 
-def test_the_signed_angle_is_where_its_row_says():
+def test_signed_angle_is_covered_in_the_places_of_its_row():
     (row,) = [x for x in cells("001")["rows"].splitlines() if x.startswith("| S1-01 |")]
     assert "signed `angle_to` about an axis" in row and "Quaternion.angle_to" not in row
     assert "[here §1]" in row and "[02 §6]" in row

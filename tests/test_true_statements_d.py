@@ -207,7 +207,7 @@ def test_straight_line_takes_longer_if_the_motor_at_the_limit_changes():
         if ((steps > 0).any(axis=0) & (steps < 0).any(axis=0)).any() or abs(
             n[-1] - n[0]
         ).max() < 200:
-            continue  # a motor turns back, or rounding matters
+            continue  # a motor reverses, or rounding matters
         changes = len({*abs(steps).argmax(axis=1).tolist()}) > 1
         d = abs(n[-1] - n[0]).max() / LIMIT
         share = move.duration / d

@@ -425,7 +425,7 @@ def test_narrower_range_is_the_one_in_inverse_proportion():
     assert sorted(falls) == falls and falls[-1] > 10 * falls[0]  # steeper and steeper
 
 
-def test_other_bend_reaches_targets_behind_the_base_by_the_recipe():
+def test_recipe_for_the_other_bend_reaches_targets_behind_the_base():
     words = flat("09", "deeper-more")
     assert (
         "Mirror K in the x axis, solve with `posture` of section 3, mirror back, and look at the "

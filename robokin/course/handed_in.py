@@ -96,7 +96,7 @@ def handed_in(path: Path) -> HandedIn:
         size = len(cell.source)
         try:
             if size > min(CODE, room):
-                raise ValueError(f"{size} characters are too many")
+                raise ValueError(f"{size} characters is too many")
             room -= size
             calls = list(_calls(cell.source, k))
         except (SyntaxError, ValueError, RecursionError, MemoryError) as error:

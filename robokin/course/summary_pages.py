@@ -146,9 +146,10 @@ def harmless(text: str) -> str:
 
 
 def page_of(made: Summary, links: list[str], points: bool = True) -> str:
-    """The overview page: how many exercises hold, with a row for each student and a column for each
-    lab; for each lab, how many students pass each exercise, and a row for each student; mistakes
-    and predictions; files that were left out. `links`: the links to the entries' own pages.
+    """The overview page: how many exercises are solved, with a row for each student and a column
+    for each lab; for each lab, how many students pass each exercise, and a row for each student;
+    mistakes and predictions; files that were left out. `links`: the links to the pages of the
+    entries.
     """
     rows = list(zip(made.entries, links, strict=True))
     students: dict[str, dict[str, tuple[Entry, str]]] = defaultdict(dict)

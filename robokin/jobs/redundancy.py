@@ -51,9 +51,9 @@ def race(
     methods: Mapping[str, Method], arm: ThreeLeverArm, targets: ArrayLike, start: ArrayLike
 ) -> dict[str, RaceResult]:
     """Run every method on the same targets (n, 2) in the same order, each task from the posture in
-    which the previous one ended, the first from `start` (3,). If a method fails, the least movement
-    reaches the target instead, so that the sums of turns are comparable. Returns a dict of name ->
-    `RaceResult`.
+    which the previous one ended, the first from `start` (3,). If a method fails, the
+    method of least movement reaches the target instead, so that the sums of turns are comparable.
+    Returns a dict of name -> `RaceResult`.
     """
     instance(arm, ThreeLeverArm, "arm")
     targets, start = floats(targets, "targets", 2), floats(start, "start", 3)

@@ -61,7 +61,9 @@ def leap_words(
 def spike_words(
     recording: Recording, kind: str, joints: Ints, spikes: Bools, values: Floats, unit: str
 ) -> Iterator[str]:
-    """Describe the spikes in the caller's values where a jump leaves no speed or acceleration."""
+    """Describe the spikes in the caller's values where a jump makes the speed or acceleration
+    undefined.
+    """
     for jumps, what in (
         (recording.leaps, f"{'angle jump' if unit == '°' else 'jump'} / step"),
         (recording.jumps, "speed jump / step"),

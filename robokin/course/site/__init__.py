@@ -152,7 +152,7 @@ def _older(folder: Path) -> set[str]:
         names = (folder / MARK).read_text(encoding="utf-8").split("\n")
         return {name for name in names if name and ".." not in name and not name.startswith("/")}
     if folder.exists() and not (folder.is_dir() and not any(folder.iterdir())):
-        raise ValueError(f"{folder}: neither empty nor a site of ours; nothing is overwritten")
+        raise ValueError(f"{folder}: neither empty nor a robokin site; nothing was overwritten")
     return set()
 
 

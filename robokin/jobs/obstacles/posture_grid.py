@@ -304,8 +304,8 @@ def _first_path(
     H: Floats,
     distance: float,
 ) -> Floats | None:
-    """The path of the search to the first goal for which all parts keep the distance, without
-    unnecessary corners.
+    """The path that the search finds to the first goal that it can reach with every part far
+    enough from the obstacles, without unnecessary corners.
     """
     nodes, numbers = (column[:400] for column in arrivals(axes, goals, steps))
     good = motions_keep(arm, grid_postures(axes, nodes), goals[numbers], H, distance)

@@ -182,7 +182,7 @@ def unsynchronised(start: ArrayLike, goal: ArrayLike, limit: float = LIMIT) -> M
 
 def synchronised(start: ArrayLike, goal: ArrayLike, limit: float = LIMIT) -> Move:
     """Trajectory d of the document: all motors start and stop together, each at its own constant
-    frequency (`frequencies`). start, goal (n,) motor positions -> Move. No motor turns back; the
+    frequency (`frequencies`). start, goal (n,) motor positions -> Move. No motor reverses; the
     gripper's path is a curve.
 
     No motion within the limit is faster. Source: 003, paper 1, figure 4 (5 in the text), d.

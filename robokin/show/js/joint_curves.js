@@ -10,7 +10,8 @@ import {unpacked} from "./unpacked.js";
 /** @import {CurvePanel, PageCurves} from "./page.js" */
 /** @import {Line, Panel} from "./panel.js" */
 
-const EACH = 205; // px for a panel with its name
+const EACH = 205, // px for a panel with its name
+  MOST = 540; // px for all panels, so that a figure with three fits on the screen
 
 /**
  * Builds the view in every place that waits for this id.
@@ -29,7 +30,7 @@ function start(root, data) {
       class: "rk-alone",
       role: "img",
       "aria-label": data.alt,
-      style: `height:${EACH * panels.length + 50}px`,
+      style: `height:${Math.min(EACH * panels.length, MOST) + 50}px`,
     });
   const frame = element(
     "div",

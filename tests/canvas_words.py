@@ -1,0 +1,127 @@
+"""What is written on the canvases of a page: a script that records it, and its faults."""
+
+import re
+from dataclasses import dataclass
+
+# For each canvas the words since it was last cleared: text, size in CSS px, colour, box in the
+# page, the mean colour of the pixels below, and whether an outline was drawn first.
+RECORD = """
+(() => {
+  const words = new WeakMap(), outlined = new WeakMap();
+  const proto = CanvasRenderingContext2D.prototype;
+  const {fillText, strokeText, clearRect} = proto;
+  proto.clearRect = function (...box) {
+    words.set(this.canvas, []);
+    return clearRect.apply(this, box);
+  };
+  proto.strokeText = function (text, x, y) {
+    outlined.set(this.canvas, [text, x, y, this.strokeStyle].join());
+    return strokeText.call(this, text, x, y);
+  };
+  proto.fillText = function (text, x, y) {
+    const {a, d, e, f} = this.getTransform(), size = parseFloat(this.font.match(/([\\d.]+)px/)[1]);
+    const ratio = this.canvas.width / (this.canvas.clientWidth || this.canvas.width);
+    const m = this.measureText(text), shift = {center: 0.5, right: 1, end: 1}[this.textAlign] ?? 0;
+    const width = m.width * a / ratio, left = (x * a + e) / ratio - shift * width;
+    const up = m.actualBoundingBoxAscent, down = m.actualBoundingBoxDescent;
+    const top = (y * d + f) / ratio - up * d / ratio, height = (up + down) * d / ratio;
+    const outline = (outlined.get(this.canvas) || "").startsWith([text, x, y].join());
+    let ground = null;
+    if (!outline && width > 0 && height > 0) {
+      const {data} = this.getImageData(left * ratio, top * ratio, Math.max(1, width * ratio),
+                                       Math.max(1, height * ratio));
+      ground = [0, 1, 2, 3].map(k => {
+        let sum = 0;
+        for (let i = k; i < data.length; i += 4) sum += data[i];
+        return sum * 4 / data.length;
+      });
+    }
+    if (!words.has(this.canvas)) words.set(this.canvas, []);
+    words.get(this.canvas).push({
+      text, size: size * d / ratio, color: this.fillStyle, box: [left, top, width, height], ground,
+    });
+    return fillText.call(this, text, x, y);
+  };
+  window.canvasWords = () => [...document.querySelectorAll("canvas")]
+    .filter(canvas => canvas.checkVisibility() && canvas.clientWidth)
+    .map(canvas => ({
+      view: canvas.closest("[data-player]")?.dataset.player ?? "",
+      kind: canvas.closest(".rk")?.className ?? "",
+      paper: getComputedStyle(canvas).getPropertyValue("--rk-paper").trim(),
+      width: canvas.clientWidth, height: canvas.clientHeight,
+      words: words.get(canvas) ?? [],
+    }));
+})();
+"""
+SIZE, CONTRAST = 10, 4.5
+OVERLAP = 1.5  # px by which two boxes may reach into each other
+
+
+@dataclass
+class Fault:
+    """A text that cannot be read, and why."""
+
+    text: str
+    why: str
+    kind: str
+
+
+def faults(page):
+    """The faults of all words on the visible canvases of a page."""
+    found = []
+    for canvas in page.evaluate("canvasWords()"):
+        paper = rgb(canvas["paper"])
+        seen = [word for word in canvas["words"] if word["text"].strip()]
+        for k, word in enumerate(seen):
+            text, kind = word["text"], canvas["kind"]
+            if word["size"] < SIZE - 0.01:
+                found.append(Fault(text, f"{word['size']:.1f} px", kind))
+            ground = below(word["ground"], paper)
+            ratio = contrast(rgb(word["color"]), ground)
+            if ratio < CONTRAST:
+                found.append(Fault(text, f"contrast {ratio:.1f}", kind))
+            left, top, width, height = word["box"]
+            if (
+                left < -1
+                or top < -1
+                or left + width > canvas["width"] + 1
+                or top + height > canvas["height"] + 1
+            ):
+                found.append(Fault(text, "cut at the edge", kind))
+            for other in seen[:k]:
+                if other["text"] != text and reach(word["box"], other["box"]) > OVERLAP:
+                    found.append(Fault(text, f"over {other['text']!r}", kind))
+    return found
+
+
+def reach(one, other):
+    """How far two boxes reach into each other, in px; negative if they are apart."""
+    (x, y, w, h), (u, v, a, b) = one, other
+    return min(min(x + w, u + a) - max(x, u), min(y + h, v + b) - max(y, v))
+
+
+def below(ground, paper):
+    if ground is None:  # an outline in the colour of the paper
+        return paper
+    share = ground[3] / 255
+    return [share * g + (1 - share) * p for g, p in zip(ground, paper, strict=False)]
+
+
+def rgb(color):
+    """The components of a colour as CSS or a canvas writes it."""
+    if color.startswith("#"):
+        return [int(color[i : i + 2], 16) for i in (1, 3, 5)]
+    values = [float(x) for x in re.findall(r"[\d.]+", color.replace("color(srgb", ""))]
+    return [255 * x for x in values[:3]] if color.startswith("color(") else values[:3]
+
+
+def contrast(one, other):
+    """The contrast of two colours (WCAG 2)."""
+
+    def light(color):
+        parts = [c / 255 for c in color]
+        linear = [c / 12.92 if c <= 0.04045 else ((c + 0.055) / 1.055) ** 2.4 for c in parts]
+        return 0.2126 * linear[0] + 0.7152 * linear[1] + 0.0722 * linear[2]
+
+    high, low = sorted((light(one), light(other)), reverse=True)
+    return (high + 0.05) / (low + 0.05)
