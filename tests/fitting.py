@@ -1,0 +1,46 @@
+"""How much of a screen the views of a page need."""
+
+# JupyterLab at 1366 x 768 with its file browser open shows 647 px of a notebook, 914 px wide.
+SCREEN = {"width": 1366, "height": 768}
+MOST = {"rk-wide": 640, "rk-several": 600}  # px for several arms in one scene, and side by side
+ONE = 560  # px for one arm and for every explorer
+PLOT, ARM, FRAME = 180, 150, 300  # px of the large panel and of the arm in a frame of 300 x 300
+
+# Records the sides of each panel that is drawn, by canvas.
+RECORD = """
+(() => {
+  const frames = new WeakMap(), {strokeRect, clearRect} = CanvasRenderingContext2D.prototype;
+  CanvasRenderingContext2D.prototype.clearRect = function (...box) {
+    frames.set(this.canvas, []);
+    return clearRect.apply(this, box);
+  };
+  CanvasRenderingContext2D.prototype.strokeRect = function (...box) {
+    frames.get(this.canvas)?.push(box);
+    return strokeRect.apply(this, box);
+  };
+  window.viewSizes = () => [...document.querySelectorAll(".robokin-player .rk")]
+    .filter(view => view.checkVisibility() && !view.querySelector(".rk-question"))
+    .map(view => {
+      const box = view.getBoundingClientRect();
+      const heights = [...view.querySelectorAll("canvas")].map(canvas => canvas.clientHeight);
+      const plots = [...view.querySelectorAll("canvas")]
+        .flatMap(canvas => (frames.get(canvas) ?? []).map(frame => frame[3]));
+      return {
+        kind: view.className, width: box.width, height: box.height,
+        wide: !!view.querySelector(".rk-wide"), several: !!view.querySelector(".rk-several"),
+        canvas: Math.max(0, ...heights), plot: Math.max(0, ...plots),
+        title: view.querySelector(".rk-title")?.textContent ?? "",
+      };
+    });
+})();
+"""
+
+
+def sizes(page):
+    """The size of every visible view of a page, with the greatest height wanted; questions are not
+    views, but what opens behind them is.
+    """
+    found = page.evaluate("viewSizes()")
+    for view in found:
+        view["most"] = MOST["rk-wide"] if view["wide"] else MOST["rk-several"] if view["several"] else ONE
+    return found
