@@ -42,5 +42,7 @@ def sizes(page):
     """
     found = page.evaluate("viewSizes()")
     for view in found:
-        view["most"] = MOST["rk-wide"] if view["wide"] else MOST["rk-several"] if view["several"] else ONE
+        view["most"] = (
+            MOST["rk-wide"] if view["wide"] else MOST["rk-several"] if view["several"] else ONE
+        )
     return found

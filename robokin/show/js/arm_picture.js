@@ -7,7 +7,7 @@ import {triad} from "./triad.js";
 
 /** @import {PageLink} from "./page.js" */
 /** @import {Camera} from "./camera.js" */
-/** @import {Context, Pixel, Point} from "./canvas.js" */
+/** @import {Box, Context, Pixel, Point} from "./canvas.js" */
 /** @import {Pen, Shown} from "./scene.js" */
 
 /** @typedef {ReturnType<typeof stood>} Stood  an arm in its place, and the pen that draws it */
@@ -102,12 +102,16 @@ export function drawStood(one) {
   one.over?.(g, cam);
 }
 
-/** @param {Stood} one */
-export function drawFlange({g, cam, scene, faded, all, exists}) {
+/**
+ * Draws the frame of the flange, and adds the boxes of its letters to `letters`.
+ * @param {Stood} one
+ * @param {Box[]} letters
+ */
+export function drawFlange({g, cam, scene, faded, all, exists}, letters) {
   if (!exists) return;
   g.globalAlpha = faded ? 0.4 : 1;
   const flange = all[all.length - 1];
-  triad(g, cam, flange, 0.13 * scene.size, 3, 1, true);
+  triad(g, cam, flange, 0.13 * scene.size, 3, 1, letters);
   spot(g, cam.to(origin(flange)), 3.6, colors.hub, colors.path, 1.8);
   g.globalAlpha = 1;
 }

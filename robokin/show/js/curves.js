@@ -104,7 +104,10 @@ function tellTimes(g, [first, step, count, decimals], [t0, t1], x, y) {
     const t = first + i * step;
     if (t < t0 - 1e-9 || t > t1 + 1e-9) continue;
     const unit = t + step > t1 + 1e-9 ? " s" : "";
-    write(g, number(t, decimals) + unit, x(t) + (unit ? 4 : 0), y, colors.soft, 11, "center");
+    const text = number(t, decimals) + unit;
+    g.font = font(11);
+    const most = g.canvas.clientWidth - 2 - g.measureText(text).width / 2; // inside the canvas
+    write(g, text, Math.min(most, x(t) + (unit ? 4 : 0)), y, colors.soft, 11, "center");
   }
 }
 

@@ -12,10 +12,10 @@ import {font, hit, write} from "./canvas.js";
  * @param {Label[]} labels
  * @param {Pixel[]} taken
  * @param {Box} room
+ * @param {Box[]} written  other texts, which no label covers
  */
-export function placeLabels(g, labels, taken, [left, top, width, height]) {
-  /** @type {Box[]} */
-  const done = [];
+export function placeLabels(g, labels, taken, [left, top, width, height], written) {
+  const done = [...written];
   for (const label of labels) {
     g.font = font(12, label.weight);
     const w = g.measureText(label.text).width + 4,

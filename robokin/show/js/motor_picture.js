@@ -150,7 +150,8 @@ function drawMagnet({g, at}, theta) {
     const half = arc(at, turn - Math.PI / 2, turn + Math.PI / 2, 0.57);
     polygon(g, half, color, colors.edge, 1.2);
     // on the screen the handle covers this N
-    plainWords(g, name, at(turn, 0.46), colors.edge, true);
+    const [x, y] = at(turn, 0.46);
+    write(g, name, x, y + 5, colors.ink, 12, "center", "700");
   }
 }
 

@@ -2,7 +2,7 @@
 
 import {drawFlange, drawRods, drawShadow, drawStood, stood} from "./arm_picture.js";
 import {camera} from "./camera.js";
-import {clear, colors, polygon, prepared, stroke, tiled, write} from "./canvas.js";
+import {clear, colors, font, hit, polygon, prepared, stroke, tiled, write} from "./canvas.js";
 import {frames, origin} from "./kinematics.js";
 import {kinds} from "./kinds.js";
 import {placeLabels} from "./labels.js";
@@ -109,8 +109,12 @@ export function sceneView(canvas, scene) {
       return cam;
     });
     const grid = +(scene.grid / scene.unit.size).toPrecision(6);
-    write(g, clock, w - 10, 18, colors.ink, 13, "right", "600");
-    write(g, `grid ${grid} ${scene.unit.name}`, 10, h - 8, colors.soft, 12);
+    const scale = `grid ${grid} ${scene.unit.name}`;
+    write(g, scale, 10, h - 8, colors.soft, 12);
+    // several arms have their names at the top
+    if (pictures.length > 1)
+      write(g, clock, 26 + g.measureText(scale).width, h - 8, colors.ink, 13, "left", "600");
+    else write(g, clock, w - 10, 18, colors.ink, 13, "right", "600");
     return true;
   }
 
@@ -246,7 +250,19 @@ function drawSpace(pen, arms, [x, y, w, h], named) {
   /** @type {Labels} */
   const found = {labels: [], taken: []};
   for (const kind in KINDS) KINDS[kind].above({...pen, near: first.near}, only(kind), found);
-  all.forEach(drawFlange);
+  /** @type {Box[]} */
+  const written = [];
+  for (const one of all) drawFlange(one, written);
+  written.push(...compass(g, cam, [x + w - 34, y + h - 34]));
+  if (first.row && arms.length === 1) {
+    g.font = font(12);
+    const wide = g.measureText(first.row).width;
+    /** @type {(up: number) => Box} */
+    const box = up => [x + 10, y + h - 36 - up, wide, 16];
+    const up = [0, 16, 32, 48].find(up => !hit(box(up), written)) ?? 0;
+    write(g, first.row, x + 10, y + h - 24 - up, colors.ink, 12);
+    written.push(box(up));
+  }
   for (const {
     cam: {to},
     joints,
@@ -264,10 +280,9 @@ function drawSpace(pen, arms, [x, y, w, h], named) {
     found.labels,
     [...all.flatMap(one => one.trace.filter(p => p !== null).map(one.cam.to)), ...found.taken],
     [x + 4, y + 24, w - 8, h - 46],
+    written,
   );
-  compass(g, cam, [x + w - 34, y + h - 34]);
   if (named) write(g, first.name, x + 10, y + 18, colors.ink, 13, "left", "600");
-  if (first.row && arms.length === 1) write(g, first.row, x + 10, y + h - 24, colors.ink, 12);
   if (arms.some(arm => arm.faded))
     write(
       g,

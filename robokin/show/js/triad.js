@@ -4,7 +4,7 @@ import {colors, stroke, write} from "./canvas.js";
 import {dot, origin, plus} from "./kinematics.js";
 
 /** @import {Camera} from "./camera.js" */
-/** @import {Context, Pixel} from "./canvas.js" */
+/** @import {Box, Context, Pixel} from "./canvas.js" */
 
 /** The axes of a frame; their colours have the same names. */
 export const AXES = /** @type {const} */ (["x", "y", "z"]);
@@ -17,10 +17,10 @@ export const AXES = /** @type {const} */ (["x", "y", "z"]);
  * @param {number} length
  * @param {number} width
  * @param {number} alpha
- * @param {boolean} [letters]
+ * @param {Box[]} [letters]  the letters are written, and their boxes added to this list
  * @returns {Pixel[]}  their tips on the screen
  */
-export function triad(g, cam, pose, length, width, alpha, letters = false) {
+export function triad(g, cam, pose, length, width, alpha, letters) {
   const p = origin(pose),
     from = cam.to(p),
     before = g.globalAlpha;
@@ -37,29 +37,24 @@ export function triad(g, cam, pose, length, width, alpha, letters = false) {
     for (const {name, tip} of tips) {
       const d = [tip[0] - from[0], tip[1] - from[1]],
         l = Math.hypot(...d);
-      if (l > 0.35 * length * cam.scale)
-        write(
-          g,
-          name,
-          tip[0] + (8 * d[0]) / l,
-          tip[1] + (8 * d[1]) / l + 4,
-          colors[name],
-          12,
-          "center",
-          "600",
-        );
+      if (l <= 0.35 * length * cam.scale) continue;
+      const [x, y] = [tip[0] + (8 * d[0]) / l, tip[1] + (8 * d[1]) / l];
+      write(g, name, x, y + 4, colors[name], 12, "center", "600");
+      letters.push([x - 5, y - 6, 10, 13]);
     }
   g.globalAlpha = before;
   return tips.map(({tip}) => tip);
 }
 
 /**
- * Draws the directions of the base's x, y and z in a corner.
+ * Draws the directions of the base's x, y and z in a corner; returns the boxes of the letters.
  * @param {Context} g
  * @param {Camera} cam
  * @param {Pixel} corner
  */
 export function compass(g, cam, [x, y]) {
+  /** @type {Box[]} */
+  const letters = [];
   [
     [1, 0, 0],
     [0, 1, 0],
@@ -71,14 +66,9 @@ export function compass(g, cam, [x, y]) {
     /** @type {Pixel} */
     const tip = [x + (18 * dx) / cam.scale, y + (18 * dy) / cam.scale];
     stroke(g, [[x, y], tip], colors[AXES[k]], 1.4);
-    write(
-      g,
-      AXES[k],
-      tip[0] + (7 * dx) / cam.scale / l,
-      tip[1] + (7 * dy) / cam.scale / l + 3.5,
-      colors[AXES[k]],
-      10,
-      "center",
-    );
+    const [px, py] = [tip[0] + (7 * dx) / cam.scale / l, tip[1] + (7 * dy) / cam.scale / l];
+    write(g, AXES[k], px, py + 3.5, colors[AXES[k]], 10, "center");
+    letters.push([px - 4, py - 5, 8, 11]);
   });
+  return letters;
 }

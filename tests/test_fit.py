@@ -1,0 +1,99 @@
+"""Views fit on a screen, and what they write can be read: in the exported labs, and one lab in
+JupyterLab. `benchmarks/fit.py` measures every lab in JupyterLab.
+"""
+
+import pytest
+from canvas_words import RECORD as WORDS
+from canvas_words import faults
+from conftest import NOTEBOOKS, awake
+from fitting import RECORD as SIZES
+from fitting import SCREEN, sizes
+
+LABS = [path.stem for path in sorted(NOTEBOOKS.glob("*.ipynb"))]
+NEXT = "() => new Promise(done => requestAnimationFrame(() => requestAnimationFrame(done)))"
+
+
+def opened(browser, path, width, theme):
+    page = browser.new_page(viewport={"width": width, "height": 900}, color_scheme=theme)
+    page.add_init_script(WORDS + SIZES)
+    page.goto(path.as_uri())
+    awake(page)
+    page.evaluate(NEXT)
+    page.wait_for_function(
+        "() => canvasWords().every(each => each.words.length || each.kind.includes('rk-plan'))"
+    )
+    return page
+
+
+@pytest.mark.parametrize("lab", LABS)
+def test_words_on_canvases_can_be_read_on_a_screen_and_on_a_phone(browser, exported, lab):
+    for width, theme in ((914, "light"), (900, "dark"), (390, "dark")):
+        page = opened(browser, exported[lab], width, theme)
+        assert faults(page) == [], f"{width} px, {theme}"
+        page.close()
+
+
+@pytest.mark.parametrize("lab", LABS)
+def test_views_fit_on_the_screen_of_a_notebook(browser, exported, lab):
+    page = opened(browser, exported[lab], 1036, "light")  # outputs are then 894 px wide
+    found = sizes(page)
+    assert found, "no view is open"
+    for view in found:
+        assert 870 < view["width"] < 920 and 60 < view["height"] <= view["most"], view
+        if "rk-player" in view["kind"]:
+            assert view["plot"] >= 180 and view["canvas"] >= 180, view
+    page.close()
+
+
+def test_planted_faults_on_a_canvas_are_found(browser):
+    page = browser.new_page()
+    page.add_init_script(WORDS)
+    page.goto(
+        "data:text/html,<style>canvas{--rk-paper:%23ffffff}</style><canvas width=300 height=150>"
+    )
+    page.evaluate(
+        """() => {
+          const g = document.querySelector("canvas").getContext("2d");
+          const write = (text, x, y, size, color) => {
+            g.font = `${size}px sans-serif`; g.fillStyle = color; g.fillText(text, x, y); };
+          write("good", 10, 30, 12, "#000000");
+          write("small", 60, 30, 8, "#000000");
+          write("pale", 120, 30, 12, "#bbbbbb");
+          g.fillStyle = "#333333"; g.fillRect(160, 10, 60, 30);
+          write("dark", 165, 30, 12, "#000000");
+          write("outside", 280, 60, 12, "#000000");
+          write("first", 10, 100, 12, "#000000");
+          write("second", 20, 104, 12, "#000000");
+        }"""
+    )
+    assert {(fault.text, fault.why.split(" ")[0]) for fault in faults(page)} == {
+        ("small", "8.0"),
+        ("pale", "contrast"),
+        ("dark", "contrast"),
+        ("outside", "cut"),
+        ("second", "over"),
+    }
+    page.evaluate("""() => {
+        const g = document.querySelector("canvas").getContext("2d"); g.clearRect(0, 0, 300, 150);
+        g.font = "12px sans-serif"; g.fillStyle = "#000000"; g.fillText("good", 10, 30); }""")
+    assert faults(page) == []
+    page.close()
+
+
+def test_views_fit_beside_the_file_browser_of_jupyterlab(browser, jupyter):
+    lab = "05_scara_motion.ipynb"
+    context = browser.new_context(viewport=SCREEN)
+    page = context.new_page()
+    page.add_init_script(WORDS + SIZES)
+    jupyter.trust(lab)
+    jupyter.open(page, lab)
+    page.locator(".robokin-player").first.wait_for()
+    panel = page.locator(".jp-WindowedPanel-outer, .jp-Notebook").first.bounding_box()
+    assert panel["width"] < 1100, "the file browser is closed"
+    awake(page)
+    page.evaluate(NEXT)
+    found = [view for view in sizes(page) if "rk-ask" not in view["kind"]]
+    assert len(found) >= 3
+    for view in found:
+        assert view["width"] < 920 and view["height"] <= view["most"] <= panel["height"], view
+    context.close()
