@@ -360,7 +360,7 @@ def test_excessive_work_is_refused(monkeypatch):
         lambda: keeps(ARM, q, q + [20, 0, 0], (2.9, 2.9), 0.5),
         lambda: swept(ARM, q, q + [20, 0, 0], (1.5, 1.5)),
     ):
-        with pytest.raises(ValueError, match="motions: wanted at most 8 pieces to be measured"):
+        with pytest.raises(ValueError, match="motions: wanted motions that need at most 8 pieces"):
             call()
 
 
