@@ -214,8 +214,8 @@ def test_follow_passes_straight_through_the_wrist_singularity(machine, middle):
 @six
 @pytest.mark.parametrize("sine", [1e-14, 3e-13, 1e-11, 1e-10])
 def test_rounding_noise_at_the_wrist_singularity_turns_no_joint(machine, sine):
-    """So near the singularity, joint 4 is rounding noise in every row; a motion does not follow the
-    noise.
+    """This near to the singularity, joint 4 is rounding noise in every row; a motion does not
+    follow the noise.
     """
     arm = machine.arm
     rng = np.random.default_rng(25)
@@ -409,7 +409,7 @@ def test_follow_returns_solutions_for_the_poses(machine):
     )
 
 
-def test_follow_accepts_one_sample():
+def test_follow_accepts_a_single_sample():
     rows = IRB140.ik(IRB140.fk(np.full((1, 6), 0.2)))
     assert np.allclose(follow(IRB140, rows, 0), [[0.2] * 6], rtol=0, atol=1e-12)
 
@@ -487,7 +487,7 @@ def test_explain_names_the_singularity():
     assert "elbow" in explain(IRB140, stretched, 0) and "wrist singularity" not in explain(
         IRB140, stretched, 0
     )
-    above = Transform(TURNED, (0.065, 0, 0.9))  # the wrist centre on axis 1
+    above = Transform(TURNED, (0.065, 0, 0.9))  # the wrist centre is on axis 1
     assert "shoulder" in explain(IRB140, above, 0)
     zero = explain(ITMO6R, ITMO6R.fk(HOME), 0)
     assert "elbow" in zero and "wrist" in zero
@@ -565,14 +565,14 @@ def test_blend_stays_on_one_row():
         assert abs(np.diff(path, axis=0)).max() < 0.05
 
 
-# values to show to people
+# joint values for people to read
 # --------------------------------------------------------------------------------------------------
 
 
 @pytest.mark.parametrize("arm", [m.arm for m in MACHINES] + [MIXED], ids=lambda arm: arm.name)
 def test_representative_is_inside_the_limits_or_closest_to_them(arm):
     """Compared with a trial of all whole turns: the value inside the limits nearest to q, otherwise
-    the one least past the limits.
+    the one with the smallest excess.
     """
     rng = np.random.default_rng(31)
     q = rng.uniform(-11, 11, (400, len(arm.links)))
