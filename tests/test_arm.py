@@ -191,7 +191,7 @@ def test_both_dh_forms_accept_prismatic_joints(modified):
 
 
 def test_dh_table_of_a_scara_gives_its_forward_kinematics():
-    """The x axis turns by 180 degrees twice: the stroke goes down, the tool's z axis points up."""
+    """Two links turn by 180° about x: the stroke points down, the tool's z axis points up."""
     links = dh_links(
         a=np.array([200, 250, 0, 0]) * mm,
         alpha=np.array([0, 0, 180, 180]) * deg,

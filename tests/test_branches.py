@@ -360,7 +360,9 @@ def test_follow_continues_after_nan_from_the_last_sample():
     assert last < 140 and first > 160
     assert np.allclose(path[first], path[last], atol=0.15)  # the arm comes back along the same line
     assert np.allclose(path[-1], path[0], rtol=0, atol=1e-9)
-    assert np.nanmax(abs(np.diff(path, axis=0))) < 0.2  # the joints of a stretched arm are fast
+    assert (
+        np.nanmax(abs(np.diff(path, axis=0))) < 0.2
+    )  # the joints move fast near the stretched arm
     shifted = rows.copy()
     shifted[:first] = np.nan
     assert np.allclose(follow(IRB140, shifted, 0)[first:], rows[first:, 0], rtol=0, atol=1e-9)
@@ -417,7 +419,7 @@ def test_follow_accepts_a_single_sample():
 # explain
 # --------------------------------------------------------------------------------------------------
 
-TURNED = Quaternion.from_angle_axis(90 * deg, (0, 1, 0))  # the flange's z axis ahead, as at home
+TURNED = Quaternion.from_angle_axis(90 * deg, (0, 1, 0))  # the flange's z axis points ahead
 
 
 def test_explain_describes_a_usable_row():

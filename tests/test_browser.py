@@ -311,7 +311,8 @@ def test_keyboard_reaches_every_control(page, saved):
     page.goto(saved.as_uri())
     awake(page)
     controls = page.locator(PLAYER).locator("button, input, select, .rk-scene")
-    assert controls.count() == 8  # view, play, time, speed, panel, numbers, slider, switch
+    # controls: view, play, time, speed, panel, numbers, slider, switch
+    assert controls.count() == 8
     reached = set()
     for _ in range(controls.count() + 1):
         page.keyboard.press("Tab")

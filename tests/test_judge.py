@@ -1,5 +1,5 @@
-"""Handed-in notebooks are judged again, and their answers get the right points whatever the author
-wrote.
+"""Handed-in notebooks are judged again, and their answers get the correct points whatever the
+author wrote.
 
 The labs are written here, so that the points for every answer are known in advance.
 """

@@ -1,4 +1,4 @@
-"""Time laws: they start at 0, reach 1 in time, and have the documented smoothness."""
+"""Time laws: they start at 0, reach 1 at the end, and have the documented smoothness."""
 
 import pickle
 

@@ -188,7 +188,7 @@ def test_rotor_can_be_dragged_and_pulses_continue(opened):
     assert "The load runs back" in shown.look().says
 
 
-def test_page_works_offline_and_axe_finds_nothing(browser, opened):
+def test_page_works_offline_and_axe_finds_no_problems(browser, opened):
     with browser.new_context(viewport={"width": 390, "height": 800}, color_scheme="dark") as small:
         small.add_init_script(test_explorers.WATCH)
         asked = []

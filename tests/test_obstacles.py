@@ -526,7 +526,7 @@ def test_search_path_is_taut(answers):
 
 
 def is_taut(path, K1, H, distance):
-    """Assert that the via postures are taut; return whether a nearer end posture is
+    """Assert that the path is taut at its via postures; return whether a nearer end posture is
     within reach.
     """
     assert not keeps(ARM, path[:-2], path[2:], H, distance).any()

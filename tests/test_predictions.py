@@ -265,7 +265,7 @@ NEIGHBOURS = """cell => [cell.previousElementSibling, cell, cell.nextElementSibl
 
 def test_question_in_jupyterlab_works_and_keeps_its_keys(jupyter, page):
     """The notebook is trusted and has never run: the question works by keyboard, and none of its
-    keys is a command of the notebook.
+    keys triggers a notebook command.
     """
     name = test_browser._variant(jupyter, "asked.ipynb")
     jupyter.trust(name)

@@ -22,8 +22,8 @@ from .._validate import floats, length, number, positive, short, whole
 from ..arms.geometry import ROUNDING
 
 # These limits keep every call to a few seconds:
-MOST = 1_000  # objects on the belt
-PLACES = 500  # places in a window
+MOST = 1_000  # greatest number of objects on the belt
+PLACES = 500  # greatest number of places in a window
 ARMS = 100
 
 

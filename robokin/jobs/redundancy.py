@@ -29,7 +29,7 @@ FLAT = 1e-4  # lever lengths; damps the pseudo-inverse, so that it exists for a 
 NEAR = 0.5  # lever lengths; an obstacle farther away than this does not stop any joint
 PULL = 0.1  # fraction of the distance to the middle of its limits that a joint aims for in one step
 SLACK = 1e-9  # rad; an excess over a limit of no more than this is a rounding error
-SAME = 1e-12  # lever lengths; distances that differ by less count as equal
+SAME = 1e-12  # lever lengths; distances that differ by less than this count as equal
 
 
 class RaceResult(NamedTuple):

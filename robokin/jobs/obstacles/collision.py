@@ -119,7 +119,7 @@ def keeps(arm: ThreeLeverArm, a: ArrayLike, b: ArrayLike, H: ArrayLike, distance
 
 
 def lever_distances(arm: ThreeLeverArm, q: Floats, H: Floats) -> Floats:
-    """`distances` for postures q (..., 3) and H (..., 2)."""
+    """`distances` without argument checks, for postures q (..., 3) and H (..., 2)."""
     q = np.broadcast_to(q, (*np.broadcast_shapes(q.shape[:-1], H.shape[:-1]), 3))
     return np.moveaxis(_seen(arm, np.moveaxis(q, -1, 0), H)[0], 0, -1)
 
@@ -150,7 +150,7 @@ def motions_keep(arm: ThreeLeverArm, a: Floats, b: Floats, H: Floats, distance: 
 
     def halve(part: Ints, here: Floats, bound: Floats) -> Bools:
         doubtful = bound < distance
-        # a lever whose distance can no longer be told from a smaller one counts as too near
+        # a distance that cannot be told from one that is too small counts as too near
         near = (here < distance) | (doubtful & (here - bound < CLOSE * arm.lever))
         good[part[near.any(axis=0)]] = False
         return good[part] & doubtful.any(axis=0)

@@ -1,4 +1,4 @@
-"""Moves of stepper motors: their positions at stations and over time, and their pulses."""
+"""Moves of stepper motors: motor positions at stations and over time, and pulses."""
 
 from dataclasses import dataclass
 

@@ -223,7 +223,7 @@ def _loaded(load: float, load_inertia: float) -> tuple[float, float]:
 def _rotor_run(
     motor: Stepper, times: Floats, rows: Ints, signs: Floats, load: float, load_inertia: float
 ) -> RotorMotion:
-    """The simulation, without argument checks."""
+    """`Stepper.run` without argument checks."""
     table, periods = motor.currents.tolist(), motor.periods
     sharp = 1 if motor.rotor == "active" else 2
     turn = (math.pi if motor.motor == "bipolar" else 2 * math.pi) / motor.windings

@@ -169,7 +169,9 @@ def lowest_place(l1: float, l2: float, start: Floats, end: Floats, below: float)
 
 
 def reasons_outside(l1: float, l2: float, point: Floats) -> tuple[str, ...]:
-    """The reasons why a point (3,) may be outside, one string for each of the four conditions."""
+    """The reasons why a point (3,) may be outside the workspace, one string for each of the four
+    conditions.
+    """
     x, y, z = point.tolist()
     rho, d = math.hypot(x, y), math.hypot(x, y, z)
     return (

@@ -18,7 +18,7 @@ from .arm import LONGEST, SHORTEST, misfit, principal_postures, reasons_outside,
 KEYS = ("L1", "L2", "T", "q'", "p0", "pi", "task")
 # These limits keep every call to a few seconds:
 TASK_LIMIT = 300_000  # greatest number of points in a task
-FILE_LIMIT = 40_000_000  # bytes in a file
+FILE_LIMIT = 40_000_000  # greatest number of bytes in a file
 # These limits keep messages readable:
 FAULTS_SHOWN = 10  # greatest number of faults of one kind that are listed
 
