@@ -2,7 +2,7 @@
 
 Lengths are in metres and angles in radians; write `352 * mm` and `90 * deg` for arguments. Figures
 and players come from `robokin.show`. Arms have no masses and no forces; only
-`robokin.jobs.steppers` integrates a torque, that on a motor's rotor.
+`robokin.jobs.steppers` integrates a torque, the one on a motor's rotor.
 """
 
 from .arms import (

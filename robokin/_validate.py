@@ -1,9 +1,9 @@
 """Checks of the arguments of public functions, and their error messages.
 
 There is one rule. Numbers or strings that cannot be used raise a `ValueError`, whether the kind,
-the shape or the value is wrong. An argument that should be an object of a class (an arm, a pose, a
-task) and is not raises a `TypeError`. Both messages read `name: wanted ..., got ...`. A legal value
-that is probably a mistake (degrees for radians) causes a warning and is accepted.
+the shape or the value is wrong. An argument of the wrong class, where an arm, a pose or a task is
+wanted, raises a `TypeError`. Both messages read `name: wanted ..., got ...`. A legal value that is
+probably a mistake (degrees for radians) causes a warning and is accepted.
 """
 
 import math
@@ -37,7 +37,7 @@ def floats(value: Any, name: str, last: int | None = None, finite: bool = True) 
     if last is not None and (array.ndim == 0 or array.shape[-1] != last):
         raise ValueError(f"{name}: wanted shape (..., {last}), got {array.shape}")
     good = np.isfinite(array) if finite else ~np.isinf(array)
-    if np.count_nonzero(good) < array.size:  # three times as fast as `all` for a few numbers
+    if np.count_nonzero(good) < array.size:  # for a few numbers, three times as fast as `all`
         where = tuple(int(i) for i in np.argwhere(~good)[0])
         raise ValueError(f"{name}: wanted finite numbers, got {array[where]} at index {where}")
     return array

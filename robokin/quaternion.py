@@ -177,7 +177,8 @@ class Quaternion(Batch):
         """
         w, x, y, z = components(self.wxyz)
         (xx, _, _), (yx, _, _), (zx, _, _) = self._rows()
-        # cosine and sine of (yaw - roll) / 2, undefined at -90 degrees, and of (yaw + roll) / 2
+        # cosine and sine of (yaw - roll) / 2, undefined at a pitch of -90 degrees, then those of
+        # (yaw + roll) / 2, undefined at +90 degrees
         c, s, cos, sin = w + y, z - x, w - y, z + x
         up, down = np.hypot(cos, sin) < UPRIGHT, np.hypot(c, s) < UPRIGHT
         cos, sin = np.where(up, c, cos), np.where(up, s, sin)
@@ -253,7 +254,7 @@ class Quaternion(Batch):
         return f"Quaternion(wxyz={rounded(self.wxyz)})"
 
 
-# --- The formulas on components, for single numbers and for arrays alike --------------------------
+# --- Formulas on components, which are single numbers or arrays -----------------------------------
 
 
 def hamilton(a: Sequence[Any], b: Sequence[Any]) -> tuple[Any, Any, Any, Any]:

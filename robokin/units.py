@@ -1,4 +1,4 @@
-"""Units: multiply by a unit to get metres or radians, divide by it to get back.
+"""Units: multiply by a unit to get metres or radians, divide by it to convert back.
 
 Inside robokin, lengths are in metres and angles in radians. Lessons write ``352 * mm`` and
 ``90 * deg``.

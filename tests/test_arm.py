@@ -98,7 +98,7 @@ def test_jacobian_is_the_derivative_of_fk(machine, shape):
     assert J.shape == (*shape, 6, n)
     ahead, back = arm.fk(q[..., None, :] + h * np.eye(n)), arm.fk(q[..., None, :] - h * np.eye(n))
     linear = (ahead.translation - back.translation) / (2 * h)
-    # the rotation, in base coordinates
+    # the rotation between the two, in base coordinates
     angle, axis = (ahead.rotation @ back.rotation.inverse()).as_angle_axis()
     angular = axis * angle[..., None] / (2 * h)
     assert np.allclose(J[..., :3, :], np.moveaxis(linear, -2, -1), rtol=0, atol=1e-9)
@@ -191,7 +191,7 @@ def test_both_dh_forms_accept_prismatic_joints(modified):
 
 
 def test_dh_table_of_a_scara_gives_its_forward_kinematics():
-    """The x axis turns by 180 degrees twice: the stroke goes down, the tool's z axis points up."""
+    """Two links turn by 180° about x: the stroke points down, the tool's z axis points up."""
     links = dh_links(
         a=np.array([200, 250, 0, 0]) * mm,
         alpha=np.array([0, 0, 180, 180]) * deg,
@@ -271,7 +271,7 @@ def test_reach_of_a_chain_is_an_upper_bound():
         q = RNG.uniform(*arm.limits.T, (2000, len(arm.links)))
         flange, joint = arm.fk(q).translation, links[0].before
         beside = flange - joint.translation
-        if not links[0].prismatic:  # only the distance from the axis counts
+        if not links[0].prismatic:  # for a revolute joint, only the distance from its axis counts
             axis = joint.rotation @ links[0].axis
             beside = beside - (beside @ axis)[:, None] * axis
         farthest = np.linalg.norm(beside, axis=-1).max()

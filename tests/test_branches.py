@@ -214,8 +214,8 @@ def test_follow_passes_straight_through_the_wrist_singularity(machine, middle):
 @six
 @pytest.mark.parametrize("sine", [1e-14, 3e-13, 1e-11, 1e-10])
 def test_rounding_noise_at_the_wrist_singularity_turns_no_joint(machine, sine):
-    """So near the singularity, joint 4 is rounding noise in every row; a motion does not follow the
-    noise.
+    """This near to the singularity, joint 4 is rounding noise in every row; a motion does not
+    follow the noise.
     """
     arm = machine.arm
     rng = np.random.default_rng(25)
@@ -360,7 +360,9 @@ def test_follow_continues_after_nan_from_the_last_sample():
     assert last < 140 and first > 160
     assert np.allclose(path[first], path[last], atol=0.15)  # the arm comes back along the same line
     assert np.allclose(path[-1], path[0], rtol=0, atol=1e-9)
-    assert np.nanmax(abs(np.diff(path, axis=0))) < 0.2  # the joints of a stretched arm are fast
+    assert (
+        np.nanmax(abs(np.diff(path, axis=0))) < 0.2
+    )  # the joints move fast near the stretched arm
     shifted = rows.copy()
     shifted[:first] = np.nan
     assert np.allclose(follow(IRB140, shifted, 0)[first:], rows[first:, 0], rtol=0, atol=1e-9)
@@ -409,7 +411,7 @@ def test_follow_returns_solutions_for_the_poses(machine):
     )
 
 
-def test_follow_accepts_one_sample():
+def test_follow_accepts_a_single_sample():
     rows = IRB140.ik(IRB140.fk(np.full((1, 6), 0.2)))
     assert np.allclose(follow(IRB140, rows, 0), [[0.2] * 6], rtol=0, atol=1e-12)
 
@@ -417,7 +419,7 @@ def test_follow_accepts_one_sample():
 # explain
 # --------------------------------------------------------------------------------------------------
 
-TURNED = Quaternion.from_angle_axis(90 * deg, (0, 1, 0))  # the flange's z axis ahead, as at home
+TURNED = Quaternion.from_angle_axis(90 * deg, (0, 1, 0))  # the flange's z axis points ahead
 
 
 def test_explain_describes_a_usable_row():
@@ -487,7 +489,7 @@ def test_explain_names_the_singularity():
     assert "elbow" in explain(IRB140, stretched, 0) and "wrist singularity" not in explain(
         IRB140, stretched, 0
     )
-    above = Transform(TURNED, (0.065, 0, 0.9))  # the wrist centre on axis 1
+    above = Transform(TURNED, (0.065, 0, 0.9))  # the wrist centre is on axis 1
     assert "shoulder" in explain(IRB140, above, 0)
     zero = explain(ITMO6R, ITMO6R.fk(HOME), 0)
     assert "elbow" in zero and "wrist" in zero
@@ -565,14 +567,14 @@ def test_blend_stays_on_one_row():
         assert abs(np.diff(path, axis=0)).max() < 0.05
 
 
-# values to show to people
+# joint values for people to read
 # --------------------------------------------------------------------------------------------------
 
 
 @pytest.mark.parametrize("arm", [m.arm for m in MACHINES] + [MIXED], ids=lambda arm: arm.name)
 def test_representative_is_inside_the_limits_or_closest_to_them(arm):
     """Compared with a trial of all whole turns: the value inside the limits nearest to q, otherwise
-    the one least past the limits.
+    the one with the smallest excess.
     """
     rng = np.random.default_rng(31)
     q = rng.uniform(-11, 11, (400, len(arm.links)))

@@ -24,8 +24,8 @@ PLAYER = "div.robokin-player"
 LIVE = ("00_start_here", "03_irb140_motion")
 LABS = [path.stem for path in sorted(NOTEBOOKS.glob("*.ipynb"))]
 COMPANIONS = [f"documents/{path.stem}" for path in sorted(NOTEBOOKS.glob("documents/*.ipynb"))]
-# Finds faults in all players at once: each slider must change the picture and restore
-# the first picture at its first value, and the clock must run and stop.
+# Script that returns the faults of all players at once: each slider must change the picture and
+# restore the first picture at its first value, and the clock must run and stop.
 ALIVE = """async selector => {
   const wrong = {}, players = [...document.querySelectorAll(selector)];
   const frames = () => new Promise(done =>
@@ -159,7 +159,8 @@ def test_player_works_in_jupyterlab(browser, jupyter, page, lab):
 def test_opening_a_lab_does_not_mark_it_as_changed(jupyter, page):
     tab = page.locator(".lm-TabBar-tab.lm-mod-current[data-type='document-title']")
     for lab in LIVE:
-        # the reader's Python version: the only field that no stored lab has right for every reader
+        # set the reader's Python version: no stored lab can contain the correct one for every
+        # reader
         name = _variant(jupyter, f"opened_{lab}.ipynb", lab)
         notebook = json.loads((jupyter.labs / name).read_text())
         notebook["metadata"]["language_info"]["version"] = platform.python_version()
@@ -265,11 +266,11 @@ def test_players_of_exported_labs_work_offline(page, exported, lab):
     for question in page.locator(".rk-ask").all():
         _opens(question)
     played = []
-    for player in players.all():  # including players behind a question
+    for player in players.all():  # players behind a question are included
         if player.locator(":scope > .rk-ask").count():
             continue
         player.locator("canvas").first.wait_for()
-        asleep = player.locator(".rk-asleep").count()  # there is no kernel
+        asleep = player.locator(".rk-asleep").count()  # asleep where there is no kernel
         if player.locator(".rk-handle").count() and not asleep:
             _answers(page, player)
             continue
@@ -278,7 +279,7 @@ def test_players_of_exported_labs_work_offline(page, exported, lab):
         player.evaluate("e => e.classList.add('played')")
         played.append(player)
     if played:
-        for slider in _sliders(played[0]):  # with keys and mouse
+        for slider in _sliders(played[0]):  # tested with keys and mouse
             _moves(page, played[0], slider)
         assert page.evaluate(ALIVE, ".played") == {}
         _plays(page, played[0])
@@ -310,7 +311,8 @@ def test_keyboard_reaches_every_control(page, saved):
     page.goto(saved.as_uri())
     awake(page)
     controls = page.locator(PLAYER).locator("button, input, select, .rk-scene")
-    assert controls.count() == 8  # view, play, time, speed, panel, numbers, slider, switch
+    # controls: view, play, time, speed, panel, numbers, slider, switch
+    assert controls.count() == 8
     reached = set()
     for _ in range(controls.count() + 1):
         page.keyboard.press("Tab")
@@ -333,7 +335,7 @@ def _seen(player):
         "e => [...e.querySelectorAll('canvas')].map(canvas => canvas.toDataURL())"
     )
     assert pixels and all(len(one) > 2000 for one in pixels), "a canvas is empty"
-    table = player.locator("table")  # the explorer of the levers has sentences instead
+    table = player.locator("table")  # the lever explorer has sentences instead of a table
     words = (table.first if table.count() else player).inner_text()
     return SimpleNamespace(pixels=pixels, numbers=words)
 
@@ -373,7 +375,8 @@ def _moves(page, player, slider):
     page.evaluate(NEXT_FRAME)
     seen = [_seen(player).pixels]
     assert slider.input_value() != value
-    slider.press("ArrowLeft")  # both ends may be the same motion: a target rotated by a whole turn
+    # the first and last value may give the same motion, if they rotate a target by a whole turn
+    slider.press("ArrowLeft")
     page.evaluate(NEXT_FRAME)
     seen.append(_seen(player).pixels)
     assert any(pixels != first.pixels for pixels in seen)

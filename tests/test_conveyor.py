@@ -233,7 +233,7 @@ def test_uneven_spacing_loses_objects():
 @pytest.mark.parametrize(
     "change, message",
     [
-        (dict(pitch=0.5), "pitch: wanted at least the window's 0.8 m, got 0.5 m"),
+        (dict(pitch=0.5), "pitch: wanted at least the window's length of 0.8 m, got 0.5 m"),
         (dict(offsets=[0.2, 0.1]), "offsets: wanted 1 to 1000 increasing numbers in m"),
         (dict(ways=WAYS[1:]), "ways: wanted 161 times in s, one for each place of the window"),
         (dict(v=1e-320), "v: wanted a speed at which the objects arrive"),

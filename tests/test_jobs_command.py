@@ -214,7 +214,7 @@ def test_closed_streams_are_handled(tmp_path):
 
 @posix
 def test_simultaneous_runs_in_one_folder_are_refused(tmp_path):
-    """The second run does not change the log of the first, and reports that."""
+    """The second run reports that the first is still writing the log, and does not change it."""
     write(tmp_path / "tasks", **{f"t{i:03}": example() for i in range(600)})
     write(tmp_path / "others", a=example(2))
     line = [sys.executable, "-m", "robokin.jobs", "tasks"]
@@ -295,7 +295,7 @@ def test_interrupts_and_internal_errors_are_handled(tmp_path, monkeypatch, capsy
     assert capsys.readouterr().err == "ERROR: stopped with Ctrl+C\n"
 
 
-def test_log_of_the_caller_is_not_used(tmp_path, monkeypatch, capsys, caplog):
+def test_messages_do_not_reach_the_log_of_the_caller(tmp_path, monkeypatch, capsys, caplog):
     from robokin.jobs import __main__ as module
 
     monkeypatch.chdir(tmp_path)
@@ -528,7 +528,8 @@ def _shown(point):
     return f"({', '.join(f'{x:.12g}' for x in point)})"
 
 
-# kind -> (a dict, bytes, or None for a folder; words in the reason, or None for a good task)
+# kind -> a function that returns the content (a dict, bytes, or None for a folder) and text in the
+# reason (None for a good task)
 MUTATIONS = {
     "good": lambda data, rng: (data, None),
     "good with more keys": lambda data, rng: (data | {"q": [], "note": [[["x"]]]}, None),

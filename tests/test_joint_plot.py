@@ -43,7 +43,7 @@ def test_curves_of_the_page_are_those_of_the_motion(arm, q):
         np.testing.assert_allclose(
             values(fig, k), at(fig, whole), rtol=0, atol=2e-4 * abs(whole).max()
         )
-    few = plot_joints(arm, T, q, 2 * found.v)  # the caller's own speeds, right or wrong
+    few = plot_joints(arm, T, q, 2 * found.v)  # the caller's own speeds, even if they are wrong
     assert len(few.page["panels"]) == 2
     np.testing.assert_allclose(values(few, 1), 2 * at(few, found.v), rtol=0, atol=1e-3)
 
@@ -74,10 +74,10 @@ def test_missing_postures_and_jumps_break_the_curves():
     assert "joint 4 in 801" in alarms[0], "its samples 1200 to 2000"
 
 
-def test_a_spike_leaves_the_panel_and_does_not_make_the_curves_coarse():
+def test_a_spike_extends_beyond_the_panel_and_does_not_coarsen_the_curves():
     q = Q.copy()
     q[1000:, 3] += 360 * deg
-    naive = np.gradient(q, T, axis=0)  # 360° in one step
+    naive = np.gradient(q, T, axis=0)  # includes a jump of 360° in one step
     assert abs(naive / deg).max() > 50_000
     fig = plot_joints(IRB140, T, q, naive)
     panel, drawn = fig.page["panels"][1], values(fig, 1) / deg

@@ -114,8 +114,8 @@ def numbers_of(path):
 
 
 def test_no_constant_is_defined_in_python_and_in_a_script():
-    """The page gets each constant from Python, or a test compares both. This looks for equal names
-    and equal values.
+    """The page gets each constant from Python, or a test compares both. The test looks for equal
+    names and equal values.
     """
     ours = [pair for path in PACKAGE.rglob("*.py") for pair in numbers_of(path).items()]
     assert {("LEAP", 0.002), ("FORBIDDEN", 255), ("NOTHING", -32768)} <= set(ours), (
@@ -216,7 +216,7 @@ def test_scenes_have_no_optional_keys():
 
 
 def test_all_kinds_of_things_are_listed():
-    """A kind is a module in things/, a script in js/, data in PageThing, and a class."""
+    """Each kind has a module in things/, a script in js/, a data type in PageThing, and a class."""
     modules = {path.stem for path in (PACKAGE / "show" / "things").glob("[!_]*.py")} - {"thing"}
     where = "PageThing in things/__init__.py: wanted one kind for each module in things/"
     assert THINGS.keys() == modules, where

@@ -1,5 +1,5 @@
-"""Handed-in notebooks are judged again, and their answers get the right points whatever the author
-wrote.
+"""Handed-in notebooks are judged again, and their answers get the correct points whatever the
+author wrote.
 
 The labs are written here, so that the points for every answer are known in advance.
 """
@@ -33,7 +33,7 @@ QUICK = Limits(cell=12, answer=60, all=100)
 IMPORTS = "from robokin.course import check, predict, variant\nimport numpy as np"
 
 
-# --- The points for answers -----------------------------------------------------------------------
+# --- Points for answers ---------------------------------------------------------------------------
 
 
 def test_missing_raising_and_endless_answers_are_judged(tmp_path):
@@ -68,7 +68,7 @@ def test_missing_raising_and_endless_answers_are_judged(tmp_path):
 def tricks(tmp_path_factory):
     """The result of a lab with unusual cells and with unusual files next to it."""
     folder = tmp_path_factory.mktemp("tricks")
-    (folder / "robokin.py").write_text("raise SystemExit")  # must not be imported
+    (folder / "robokin.py").write_text("raise SystemExit")  # the judge must not import this module
     for name in ("tasks", "tasks/.robokin", ".robokin"):
         (folder / name).mkdir()
         (folder / name / "one.json").write_text("{}")
@@ -81,7 +81,7 @@ def tricks(tmp_path_factory):
         with open(name, "w"):
             pass
     sleeper = "subprocess.Popen([sys.executable, '-c', 'import time; time.sleep(1000)']"
-    anew = (  # restarts itself repeatedly in a new session
+    anew = (  # a process that keeps restarting itself in a new session
         "import os, time\nlast = time.time() + 60\nwhile time.time() < last:\n    if os.fork():\n"
         "        os._exit(0)\n    os.setsid()\n    time.sleep(0.1)"
     )
@@ -96,7 +96,8 @@ def tricks(tmp_path_factory):
         "fraction_for = lambda distance, corner: 0.25\n"
         "course._verdicts['irb140_motion.1'] = course.Verdict('irb140_motion.1', holds=True)\n"
         "_check, check = check, lambda *a: print('irb140_motion.1: holds.')",
-        'course.check("irb140_motion.1", lambda distance, corner: distance)',  # not the last call
+        # an earlier call, which does not count
+        'course.check("irb140_motion.1", lambda distance, corner: distance)',
         'check("irb140_motion.1", fraction_for)',
         f"started = {sleeper}), {sleeper}, start_new_session=True), {sleeper}, env={{}})\n"
         f"anew = subprocess.Popen([sys.executable, '-c', {anew!r}])\n"
@@ -214,7 +215,7 @@ def slower(monkeypatch, factor):
 
 
 def test_cpu_limit_includes_child_processes(tmp_path, monkeypatch):
-    slower(monkeypatch, 10_000)  # no machine is that slow
+    slower(monkeypatch, 10_000)  # no real machine is that slow
     lab = stored(
         tmp_path / "lab.ipynb",
         IMPORTS,
@@ -265,7 +266,8 @@ def test_sleeping_cell_is_stopped_and_not_judged(tmp_path, monkeypatch):
         f"{IMPORTS}\nimport signal, time\nfrom unittest.mock import Mock",
         "nap = Mock()\nnap.side_effect = lambda: time.sleep(1000) if nap.call_count > 1 else None",
         'check("irb140_motion.1", nap())',
-        "signal.signal(signal.SIGINT, signal.SIG_IGN)\ntime.sleep(1000)",  # ends the first kernel
+        # makes the judge end the first kernel
+        "signal.signal(signal.SIGINT, signal.SIG_IGN)\ntime.sleep(1000)",
         'check("irb140_motion.2", 1)',
         "time.sleep(1000)",
         'check("irb140_motion.3", 1)',
@@ -350,14 +352,14 @@ def test_kernel_answer_that_is_not_json_is_ignored(odd):
     assert judging._read(odd) == {"error": "the kernel gave no answer"}
 
 
-# --- Reading of notebooks -------------------------------------------------------------------------
+# --- Reading notebooks ----------------------------------------------------------------------------
 
 
 def test_last_call_counts_and_any_file_name_works(tmp_path):
     lab = stored(
         tmp_path / "homework.ipynb",
         'check("irb140_motion.1", first)\ncourse.check(name="irb140_motion.2", answer=a + 1)',
-        '%time check("irb140_motion.3", x)',  # in Jupyter's own syntax
+        '%time check("irb140_motion.3", x)',  # a magic command, which only Jupyter can parse
         "x = [i\n  % 2 for i in y]; await z",
         'robokin.course.check("irb140_motion.1", f(1), who="Ada")',
         'predict("irb140_motion.p2", "a"); predict("irb140_motion.p2", "b")',
@@ -554,7 +556,7 @@ def test_mutated_notebooks_are_read_or_refused_with_a_reason(tmp_path):
         lab.write_text(json.dumps(changed))
         read += tried(lab)
     assert 100 < read < 590
-    for _ in range(300):  # mutations of single bytes
+    for _ in range(300):  # change single bytes, and truncate some files
         raw = bytearray(text.encode())
         raw[dice.randrange(len(raw))] = dice.randrange(256)
         lab.write_bytes(raw[: dice.choice((len(raw), dice.randrange(len(raw))))])

@@ -1,4 +1,4 @@
-"""Time laws: they start at 0, reach 1 in time, and have the documented smoothness."""
+"""Time laws: they start at 0, reach 1 at the end, and have the documented smoothness."""
 
 import pickle
 
@@ -49,7 +49,7 @@ def test_laws_keep_the_shape_of_the_times(law, shape):
     assert np.allclose(np.ravel(s), [law(3.0)(one) for one in np.ravel(t)], rtol=0, atol=1e-16)
 
 
-def test_linear_law_is_the_fraction_of_elapsed_time():
+def test_linear_law_returns_the_elapsed_fraction_of_the_duration():
     t = np.linspace(0, 7, 50)
     assert np.allclose(linear(7.0)(t), t / 7, rtol=0, atol=1e-16)
 

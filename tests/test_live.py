@@ -106,7 +106,7 @@ def test_cube_agrees_with_distances_and_a_simple_search():
     np.testing.assert_array_equal(cube == FORBIDDEN, near < question["distance"])
     begun, around = tuple(np.argwhere(cube == 0)[0]), abs(grid - question["posture"])
     assert (cube == 0).sum() == 1 and around[begun].max() <= STEP
-    known, front = {begun: 0}, [begun]  # the same search, one posture at a time
+    known, front = {begun: 0}, [begun]  # repeats the search, one posture at a time
     while front:
         later = []
         for cell, joint, side in itertools.product(front, range(3), (-1, 1)):
@@ -246,7 +246,7 @@ def test_live_view_wakes_after_run_all_and_shows_the_last_position(jupyter, quie
     assert quiet.errors == [] and quiet.outside == []
 
 
-# Makes pointer moves that are too fast to follow, ten per frame.
+# Moves the pointer ten times per frame, too fast for a view to follow.
 QUICK = """(node, count) => new Promise(done => {
   const r = node.getBoundingClientRect(), x = r.x + r.width / 2, y = r.y + r.height / 2;
   const tell = (type, clientX, clientY) =>
@@ -285,8 +285,8 @@ def asleep(tab):
 
 
 def shows_what_python_says(tab):
-    """Wait until all questions are answered, check the words and numbers for the last one, and
-    return its way of planning.
+    """Wait until all questions are answered, check the text and numbers for the last one, and
+    return the `way` of its plan.
     """
     still = "e => [e.dataset.asked, e.dataset.answered, e.querySelector('.rk-verdict').textContent]"
     seen = [None]

@@ -47,7 +47,7 @@ def test_fk_matches_the_figure_of_the_document(A, B):
         np.testing.assert_allclose(
             loader_arm(A, B).fk([alpha, gamma, beta]).as_matrix(), chain, atol=1e-12
         )
-        # the triangle: beta is the angle between the levers at the elbow
+        # beta is the angle between the levers at the elbow
         shoulder, elbow, tip = loader_arm(A, B).frames([alpha, gamma, beta]).translation[1:]
         cosine = (shoulder - elbow) @ (tip - elbow) / (A * B)
         assert cosine == pytest.approx(np.cos(beta), abs=1e-12)
@@ -56,7 +56,7 @@ def test_fk_matches_the_figure_of_the_document(A, B):
 
 @lengths
 @pytest.mark.parametrize("shape", SHAPES)
-def test_ik_contains_the_original_joints(A, B, shape):
+def test_ik_contains_the_original_joint_values(A, B, shape):
     arm = loader_arm(A, B)
     q = np.random.default_rng(2).uniform((-np.pi, 0, 0.01), (np.pi, np.pi / 2, 3.13), (*shape, 3))
     pose = arm.fk(q)
@@ -209,4 +209,4 @@ def test_wrong_arguments_are_refused():
         with pytest.raises(TypeError, match="loader_arm"):
             station_postures(arm, [(1, 0, 0)])
         with pytest.raises(TypeError, match="loader_arm"):
-            out_of_reach(arm, "a")  # the wrong arm is the more serious fault
+            out_of_reach(arm, "a")  # the error names the wrong arm, not the wrong point

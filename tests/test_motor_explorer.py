@@ -95,8 +95,8 @@ def test_page_ramps_match_those_of_python(context, asked):
 
 
 def lost(shown):
-    """The lost steps in the explorer and in Python, and the results of the code that the explorer
-    copies.
+    """The lost steps according to the explorer and to Python, and the results of the Python code
+    that the explorer offers for copying.
     """
     seen = shown.look()
     said = re.search(r"(\d+)(?: of 48)? steps lost", seen.says)
@@ -166,7 +166,8 @@ def test_rotor_can_be_dragged_and_pulses_continue(opened):
     shown.rk.get_by_role("button", name="1 pulse").first.press("Enter")
     assert shown.look().chosen == 3 and "Pulses sent: \u22121." in state.inner_text()
     shown.rk.get_by_role("button", name="Begin again").click()
-    shown.rk.get_by_role("button", name="3", exact=True).click()  # a row of the table
+    # the button of the third row of the table
+    shown.rk.get_by_role("button", name="3", exact=True).click()
     assert shown.look().chosen == 2 and "Pulses sent: 2." in state.inner_text()
     shown.rk.get_by_role("button", name="Begin again").click()
     before = shown.look()
@@ -181,13 +182,13 @@ def test_rotor_can_be_dragged_and_pulses_continue(opened):
     after = shown.look()
     assert after.pixels[0] != before.pixels[0] and "44" in after.says
     shown.rk.get_by_role("button", name="Stop").click()
-    shown.type("load torque", 30)  # more than 20 mN m
+    shown.type("load torque", 30)  # mN m, more than the holding torque of 20 mN m
     shown.look()
     assert state.inner_text() == "This row does not hold the load."
     assert "The load runs back" in shown.look().says
 
 
-def test_page_works_offline_and_axe_finds_nothing(browser, opened):
+def test_page_works_offline_and_axe_finds_no_problems(browser, opened):
     with browser.new_context(viewport={"width": 390, "height": 800}, color_scheme="dark") as small:
         small.add_init_script(test_explorers.WATCH)
         asked = []

@@ -203,7 +203,7 @@ WRONG = {
     "speed 0": (lambda: plan_moving(ARM, Q0, GOAL, FAR, V, 0), "speed: wanted one positive"),
     "a speed that is almost 0": (
         lambda: plan_moving(ARM, Q0, GOAL, FAR, V, 1e-300),
-        "speed: wanted one at which .* got 1e-300",
+        "speed: wanted a speed at which .* got 1e-300",
     ),
     "no speed": (lambda: plan_moving(ARM, Q0, GOAL, FAR, V, None), "speed: wanted"),
     "two obstacles": (lambda: plan_moving(ARM, Q0, GOAL, [FAR] * 2, V, 1), "obstacle: .*single"),

@@ -97,7 +97,9 @@ def test_notebook_files_are_small(path):
 
 
 def test_stored_scripts_are_up_to_date(path):
-    """nbval compares only their keys, because their bytes depend on the version of zlib."""
+    """nbval compares only the keys of the scripts, because their bytes depend on the version of
+    zlib.
+    """
     text = json.dumps(json.loads(path.read_text(encoding="utf-8")), ensure_ascii=False)
     form = r"\$loader\.start\(\W*[0-9a-f]{12}\W+([0-9a-f]{12})\W+?([A-Za-z0-9+/=]+)\W+\$(\w+) =>"
     found = re.findall(form, text)
@@ -361,7 +363,7 @@ def test_teacher_notes_have_the_same_parts_for_every_lab():
 
 def test_glossary_is_sorted_and_in_three_languages():
     rows = re.findall(r"^\| (.+?) \| (.+?) \| (.+?) \| (.+?) \| (.+?) \|$", _prose(GLOSSARY), re.M)
-    rows = rows[2:]  # without the header and the line below it
+    rows = rows[2:]  # skip the header and the separator below it
     assert len(rows) > 80
     words = [row[0].lower() for row in rows]
     assert words == sorted(words) and len(set(words)) == len(words)

@@ -360,7 +360,7 @@ def test_excessive_work_is_refused(monkeypatch):
         lambda: keeps(ARM, q, q + [20, 0, 0], (2.9, 2.9), 0.5),
         lambda: swept(ARM, q, q + [20, 0, 0], (1.5, 1.5)),
     ):
-        with pytest.raises(ValueError, match="motions: wanted at most 8 pieces to be measured"):
+        with pytest.raises(ValueError, match="motions: wanted motions that need at most 8 pieces"):
             call()
 
 
@@ -408,13 +408,14 @@ def test_plans_past_two_obstacles_keep_clear_of_both(two_drawn):
 
 
 def test_via_points_lie_around_the_first_obstacle_in_the_way(two_drawn):
-    """Checked against the gripper's positions and the words of the plan."""
+    """The obstacle is identified from the gripper's positions and compared with the text."""
     count = 0
     for q0, K1, H in two_drawn:
         answer = plan(ARM, q0, K1, H)
         if answer.way != "via points":
             continue
-        away = np.hypot(*(ARM.points(answer.via)[:, None, 3] - H).T)  # (2 obstacles, 2 points)
+        # shape (2 obstacles, 2 points)
+        away = np.hypot(*(ARM.points(answer.via)[:, None, 3] - H).T)
         about = abs(away - answer.radius).max(axis=1) < 1e-12
         assert about.sum() == 1
         assert f"{1000 * answer.radius:.1f} mm from obstacle {about.argmax() + 1}" in answer.words
@@ -428,7 +429,7 @@ def test_via_points_lie_around_the_first_obstacle_in_the_way(two_drawn):
     assert count
 
 
-def test_words_give_the_number_of_the_obstacle():
+def test_plan_text_gives_the_number_of_the_obstacle():
     far = (-2.0, -2.0)
     for words, obstacle in (
         ("Obstacle 2 lies on the base", (far, (0.05, 0))),
@@ -479,8 +480,8 @@ def test_plans_keep_their_clearance_or_find_no_path(answers):
     assert ways.count("search") > 0.5 * TASKS and ways.count("via points") > 0.1 * TASKS
 
 
-def test_words_name_the_nearest_lever(answers):
-    """If two levers meet at the nearest point, the words name the lever nearer to the base."""
+def test_plan_text_names_the_nearest_lever(answers):
+    """If two levers meet at the nearest point, the text names the lever nearer to the base."""
     told = re.compile(r"lever (\w+) (sweeps|comes as near as ([0-9.]+) mm)")
     for q0, K1, H, answer in answers:
         if "No path keeps" in answer.words:
@@ -497,7 +498,8 @@ def test_words_name_the_nearest_lever(answers):
             np.testing.assert_allclose(answer.path, paths[1], rtol=0, atol=1e-12)
             continue
         assert len(found) == len(paths) == 1 + bool(reached)
-        if reached:  # among circles that do not keep the distance, the best one is named
+        # if no circle keeps the distance, the text names the one that comes closest to it
+        if reached:
             assert clearance(ARM, paths[1], H).min() == max(
                 clearance(ARM, path, H).min() for path in reached
             )
@@ -524,7 +526,7 @@ def test_search_path_is_taut(answers):
 
 
 def is_taut(path, K1, H, distance):
-    """Assert that the via postures are taut; return whether a nearer end posture is
+    """Assert that the path is taut at its via postures; return whether a nearer end posture is
     within reach.
     """
     assert not keeps(ARM, path[:-2], path[2:], H, distance).any()
@@ -755,7 +757,7 @@ def test_S_grows_linearly_along_a_path():
     np.testing.assert_allclose(inner, 5.2 / 42, rtol=1e-12)
 
 
-def test_shares_outside_0_to_1_give_the_ends_of_a_path():
+def test_fractions_outside_0_to_1_give_the_ends_of_a_path():
     path = np.array([(0, 0, 0), (1, 0, 0), (1, 2, 1)])
     assert (along(path, [[-1.0, 2.0], [1e300, -1e300]]) == path[[[0, 2], [2, 0]]]).all()
 
@@ -915,13 +917,13 @@ def test_plans_are_read_only_data():
     [
         {"way": "tunnel"},
         {"way": None},
-        {"way": "none"},  # but the path has two postures
+        {"way": "none"},  # a path of two postures, but no path was found
         {"words": 3},
         {"path": [Q0]},  # one posture, but a path was found
         {"path": Q0},
         {"path": [Q0 * np.nan, Q0]},
         {"path": np.empty((0, 3))},
-        {"path": [Q0] * 3},  # two parts, but one clearance
+        {"path": [Q0] * 3},  # two parts, but the clearance of only one
         {"path": None},
         {"clearance": [[1, 2]]},
         {"clearance": [[1, 2, np.nan]]},

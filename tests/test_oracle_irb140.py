@@ -56,7 +56,7 @@ def test_within_matches_the_oracle(case):
         row = rows[np.nanargmin(turns(rows, q).max(-1))]
         assert within(IRB140, row).tolist() == [bool(values) for values in inside]
         for joint, values in enumerate(inside):
-            for value in values:  # from a posture near a representative, `nearest` takes that one
+            for value in values:  # near a representative, `nearest` must return it
                 near = np.array([v[0] if v else qi for v, qi in zip(inside, q, strict=True)])
                 near[joint] = value
                 assert abs(nearest(IRB140, q[None], near)[joint] - value) < 1e-9

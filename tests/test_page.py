@@ -146,7 +146,7 @@ def test_comments_are_removed_and_code_is_kept(modules, code, value):
     assert run(joiner.script("top"), "$top.all()") == plain
 
 
-def test_a_compressed_script_adds_its_sheets_and_returns_its_module(modules):
+def test_a_compressed_script_adds_its_style_sheets_and_returns_its_module(modules):
     modules({"base": "b { margin: 0 }"}, base="export const one = 1;\n")
     key, text = joiner.compressed("base")
     code = zlib.decompress(base64.b64decode(text)).decode()
@@ -237,7 +237,7 @@ def test_style_sheet_follows_those_of_imported_modules(modules):
     assert joiner.style("other") == ".no{}" and joiner.style("base").startswith("@media")
 
 
-def test_joined_style_sheets_equal_the_files_in_a_browser(browser):
+def test_joined_style_sheets_match_the_files_in_a_browser(browser):
     """The test compares all rules of all style sheets, as Chromium serialises them."""
     tab = browser.new_page()
     tab.set_content("<style id=sheet></style>")

@@ -90,7 +90,7 @@ def test_lin_lin_consists_of_two_lines():
 
 @corners
 @pytest.mark.parametrize("b", [0, 1e-300, 1e-12, 1e-3, 0.1, 0.25, 0.5])
-def test_blend_equals_the_lines_outside_its_corner(corner, b):
+def test_blend_matches_the_lines_outside_its_corner(corner, b):
     s = np.concatenate([np.linspace(0, 1, 401), [0.5 - b, 0.5 + b]])
     T = blend(START, VIA, GOAL, b, s, corner)
     assert difference(T[0], START) < 1e-15 and difference(T[400], GOAL) < 1e-15
@@ -195,7 +195,8 @@ def test_derivative_is_continuous_at_the_ends_of_the_corner(what, corner, order,
         for h in (4e-4, 2e-4, 1e-4):
             p = f(end + h * np.arange(-4, 5))
             d = np.diff(p, n=order, axis=0) / h**order
-            jumps.append(abs(d[-3 + order] - d[2]).max())  # just after the end minus just before it
+            # the derivative just after the end minus the one just before it
+            jumps.append(abs(d[-3 + order] - d[2]).max())
         assert jumps[0] / jumps[1] > 1.75 and jumps[1] / jumps[2] > 1.75, jumps
         assert jump(f, end, 1e-3, order) < 0.02 * max(
             abs(np.diff(f(np.linspace(0, 1, 101)), n=order, axis=0)).max() * 100**order, 1

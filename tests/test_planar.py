@@ -41,7 +41,7 @@ def random_points(rng, shape, L=1.0):
 
 
 @pytest.mark.parametrize("case", SWEEPS)
-def test_family_equals_the_rows_of_the_oracle(case):
+def test_family_matches_the_rows_of_the_oracle(case):
     arm, K = three_lever(case["L"]), case["K"]
     low, high = arm.alpha_range(K, limited=False)
     assert low == pytest.approx(case["alpha_min"], abs=1e-12) and high == np.pi
@@ -55,7 +55,7 @@ def test_family_equals_the_rows_of_the_oracle(case):
 
 
 @pytest.mark.parametrize("case", SWEEPS)
-def test_least_movement_equals_the_oracle(case):
+def test_least_movement_matches_the_oracle(case):
     arm = three_lever(case["L"])
     q, S = arm.least(case["K"], ours(case["previous"]), limited=False)
     assert S == pytest.approx(case["cost"], abs=1e-12)
@@ -63,12 +63,12 @@ def test_least_movement_equals_the_oracle(case):
     kept, _ = arm.least(case["K"], ours(case["previous"]))
     if case["gamma_in_range"]:
         np.testing.assert_allclose(kept, q, rtol=0, atol=1e-12)
-    else:  # the limit on gamma increases S, or leaves no posture
+    else:  # the limit on gamma increases S or excludes all postures
         assert np.isnan(kept).all() or (within(arm, kept).all() and abs(kept - q).max() > 1e-6)
 
 
 @pytest.mark.parametrize("case", FORWARD)
-def test_forward_kinematics_equals_the_oracle(case):
+def test_forward_kinematics_matches_the_oracle(case):
     arm, q = three_lever(case["L"]), ours(case["angles"])
     frames = arm.frames(q).translation
     B, A = frames[2], arm.frames(q)[2] @ arm.links[2].before.translation
@@ -156,13 +156,13 @@ def test_target_near_the_stretched_arm_is_reached_accurately(L):
         q = arm.family(K, np.mean(arm.alpha_range(K)))
         np.testing.assert_allclose(arm.points(q)[3], K, rtol=0, atol=2e-14)
     assert np.isnan(arm.family((3 + 1e-9) * L * direction, np.pi)).all()
-    assert np.isnan(arm.family(L * direction, np.pi)).all()  # KO = L: the document excludes it
+    assert np.isnan(arm.family(L * direction, np.pi)).all()  # the document excludes KO = L
 
 
 @pytest.mark.parametrize("limited", [True, False])
 def test_exact_minimum_is_never_above_the_sweep(limited):
     rng = np.random.default_rng(2)
-    n = 5 * TASKS // 2  # 5000 each by default
+    n = 5 * TASKS // 2  # 5000 tasks for each parameter by default
     K, previous = random_points(rng, n), rng.uniform(0, np.pi, (n, 3))
     q, S = ARM.least(K, previous, limited)
     exists = ~np.isnan(S)
@@ -196,7 +196,7 @@ def test_exact_minimum_between_the_kinks_is_found():
     assert around.min() > S - 1e-14 and around[[0, -1]].min() > S + 1e-6
 
 
-def test_batch_equals_single_tasks():
+def test_batch_matches_single_tasks():
     rng = np.random.default_rng(3)
     K, previous = random_points(rng, (4, 5)), rng.uniform(0, np.pi, (5, 3))
     q, S = ARM.least(K, previous)
@@ -207,7 +207,7 @@ def test_batch_equals_single_tasks():
         np.testing.assert_allclose(cost, S[i], rtol=0, atol=1e-13)
 
 
-def test_table_equals_table_3_of_the_document():
+def test_table_matches_table_3_of_the_document():
     K, step = (1.5, 1.0), 0.01 * deg
     rows = ARM.table(K, step, limited=False)
     assert rows[0, 2] / deg == pytest.approx(64.055520228, abs=1e-9)  # errata S3-e, row 1
@@ -221,7 +221,7 @@ def test_table_equals_table_3_of_the_document():
     # errata S3-g: nearly every row has gamma > 180 degrees
     K = 2 * np.array([np.cos(150 * deg), np.sin(150 * deg)])
     share = len(ARM.table(K)) / len(ARM.table(K, limited=False))
-    assert share == pytest.approx(0.0105, abs=5e-4)  # the errata say 1.05 %, from coarser rows
+    assert share == pytest.approx(0.0105, abs=5e-4)  # the errata give 1.05 %, from a coarser table
     K = 2 * np.array([np.cos(170 * deg), np.sin(170 * deg)])
     assert len(ARM.table(K)) == 0 and "gamma outside" in ARM.out_of_reach(K)
 
@@ -336,7 +336,7 @@ def test_angles_in_degrees_cause_a_warning():
         ARM.least((1.5 * ARM.lever, ARM.lever), [100, 110, 120])
 
 
-def test_no_posture_of_the_family_moves_less_than_least():
+def test_no_posture_of_the_family_needs_less_movement_than_least():
     """Brute force: 400 targets and postures, each compared with 20 001 postures of its family."""
     rng = np.random.default_rng(17)
     L = ARM.lever
@@ -419,7 +419,7 @@ def test_unequal_levers_reach_their_targets(lengths):
 
 
 @unequal
-def test_unequal_families_end_where_the_triangle_ends(lengths):
+def test_families_of_unequal_levers_end_where_the_triangle_ends(lengths):
     """The highest alpha is 180 degrees; at the lowest, OA is as long as OB and BA together; if K is
     too near for that, the lowest alpha is 0.
     """
@@ -457,7 +457,7 @@ def test_every_posture_of_unequal_levers_is_in_the_family(lengths):
     turns = abs((found - q[far] + np.pi) % (2 * np.pi) - np.pi)
     assert far.sum() > 1000 and turns.max() < 1e-5 and np.median(turns) < 1e-14
     assert np.isnan(arm.family(K[~far], q[~far, 2])).all()
-    # B on the other side of OK: K is always nearer than the border, and can be close to it
+    # with B on the other side of OK, K is always nearer than the border, but can be close to it
     q[:, 1] *= 0.05
     q[:, 2] *= 0.05
     q[::2, 2] = np.pi - q[::2, 2]
@@ -467,7 +467,7 @@ def test_every_posture_of_unequal_levers_is_in_the_family(lengths):
 
 
 @unequal
-def test_no_posture_of_unequal_levers_moves_less_than_the_least(lengths):
+def test_no_posture_of_unequal_levers_needs_less_movement_than_least(lengths):
     """Brute force: 100 targets and postures, each compared with 8001 postures of its family."""
     arm, rng = three_lever(lengths), np.random.default_rng(36)
     K, before = ring(rng, lengths, 100), rng.uniform(0, np.pi, (100, 3))
@@ -490,14 +490,14 @@ def test_minimum_that_only_unequal_levers_have_is_found():
     rows = arm.family(K, np.linspace(low, high, 20_001))
     level = (rows @ [1, -1, 1]).argmin()
     assert 100 < level < 19_900
-    before = rows[level] + [-0.2, 0.2, -0.2]  # so that S is that sum minus a constant near this row
+    before = rows[level] + [-0.2, 0.2, -0.2]  # near this row, S is then that sum minus a constant
     q, S = arm.least(K, before, limited=False)
     sums = abs(rows - before).sum(axis=-1)
     assert abs(q - before).min() > 1e-3 and sums.min() - 1e-7 < S <= sums.min()
     assert abs(q - rows[sums.argmin()]).max() < 1e-3
 
 
-def test_batch_of_unequal_tasks_equals_single_tasks():
+def test_batch_of_tasks_for_unequal_levers_matches_single_tasks():
     arm, rng = three_lever((0.9, 1.1, 0.6)), np.random.default_rng(37)
     K, before = ring(rng, (0.9, 1.1, 0.6), 2300), rng.uniform(0, np.pi, (2300, 3))
     S = arm.least(K, before)[1]

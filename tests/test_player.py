@@ -329,8 +329,8 @@ def test_jump_by_two_pi_breaks_the_curve_and_is_not_a_speed(motions):
 
 
 def test_sawtooth_jumps_in_position_and_has_no_speed_at_its_teeth():
-    """As in lab 12, where C casts to (int): each tooth is below a tenth of a radian and far from
-    the next one.
+    """As in lab 12, where C code casts to int: each tooth is less than a tenth of a radian high and
+    far from the next one.
     """
     t = np.linspace(0, 5, 500)
     teeth = [82, 146, 199, 246, 289, 328]
@@ -444,7 +444,7 @@ def test_everything_drawn_is_in_view(blended, motions):
     """
     seen = np.array(blended.data["scene"]["seen"])
     points = IRB140.frames(motions[:, ::20]).translation.reshape(-1, 3)
-    flange = IRB140.fk(motions[:, ::20])  # with its axes, at the length that the page draws
+    flange = IRB140.fk(motions[:, ::20])  # drawn with its axes
     tips = [
         (flange.rotation @ axis) * 0.13 * blended.data["scene"]["size"] + flange.translation
         for axis in (X, Y, Z)
@@ -572,7 +572,7 @@ def test_a_target_can_move(motions):
     assert np.isnan(moved(player, "target", 12)[0, 0]).all()
 
 
-def test_distance_is_shown_to_the_via_point_of_each_motion(motions):
+def test_distance_to_the_via_point_of_each_motion_is_shown(motions):
     place = np.array([[[0.6, 0, 0.8]], [[0.65, -0.1, 0.8]]])
     via = Transform(translation=place)
     pair = motions[[1, 1]]
@@ -996,7 +996,7 @@ def test_the_slider_changes_arm_curves_and_numbers(page, blended, tmp_path):
     assert said == f"The path passes {arm['via'][3][0]:.1f} mm from via."
 
 
-def test_play_pause_and_scrub_by_keyboard_alone(page, blended, tmp_path):
+def test_keyboard_alone_can_play_pause_and_scrub(page, blended, tmp_path):
     show(page, blended, tmp_path)
     time = page.get_by_label("time", exact=True)
     assert time.input_value() == "0"
@@ -1029,7 +1029,7 @@ def test_play_pause_and_scrub_by_keyboard_alone(page, blended, tmp_path):
     assert page.get_by_text("20.00 s").count() == 1
 
 
-def test_controls_keep_their_keys_and_have_names(page, blended, tmp_path):
+def test_controls_keep_their_keys_from_jupyterlab_and_have_names(page, blended, tmp_path):
     show(page, blended, tmp_path)
     controls = page.locator("input, select, button, canvas[tabindex]")
     assert controls.count() >= 5

@@ -173,7 +173,7 @@ def test_violations_of_task_1_are_counted_and_marked():
     case = oracle("trajectories_irb140")["cases"][0]
     np.testing.assert_allclose(q[::100][1:], [s["q"] for s in case["samples"]][1:20], atol=1e-9)
     assert case["law"] == "task1" and case["limit_violation_count"] == 673
-    # Counted a second time, with the limits in degrees from listing 1:
+    # A second count, with the limits in degrees from listing 1:
     past3, past5 = np.degrees(q[:, 2]) > 50, np.degrees(q[:, 4]) > 115
     assert (past3 | past5).sum() == 673 and t[past3 | past5].max() == pytest.approx(6.72)
     fig = plot_joints(IRB140, t, q)
@@ -266,7 +266,7 @@ def test_given_values_replace_those_of_the_recording(corner):
     assert "Greatest speed 31.2 °/s (q3)." in fig.alt
     slow = plot_joints(found, v=found.v / 2)
     assert "Greatest speed 15.6 °/s (q3)." in slow.alt and "None at 10 s" in slow.alt
-    # from a caller who knows the acceleration there
+    # the accelerations of a caller who knows them at the jump too
     exact = np.where(np.isnan(found.a), 0.1, found.a)
     calm = plot_joints(IRB140, T, corner, found.v, exact).alt
     assert "spike" not in calm.lower() and "None at" not in calm
@@ -365,7 +365,7 @@ def test_names_at_the_ends_do_not_overlap(rounded):
             (box.y0, box.y1)
             for text in ax.texts
             if re.fullmatch(r"q\d", text.get_text())
-            # the text without its leader line
+            # the box of the text without its leader line
             for box in [Text.get_window_extent(text, renderer)]
         )
         assert len(boxes) == 6 and all(
@@ -424,7 +424,7 @@ def test_cube_keeps_its_proportions(figures):
         assert edges[2].real == pytest.approx(0, abs=1e-6) and edges[2].imag > 0  # z is up
 
 
-def test_postures_draw_the_path_and_the_arm(figures, rounded):
+def test_figure_of_postures_shows_the_path_and_the_arm(figures, rounded):
     lines = [np.column_stack(line.get_data()) for line in figures["postures"].axes[0].lines]
     flange = project(IRB140.fk(rounded).translation)
     assert any(

@@ -118,7 +118,7 @@ def test_every_option_can_be_chosen_and_gets_a_reply(opened, k, width):
     assert page.evaluate("document.documentElement.scrollWidth") <= width
 
 
-def test_keyboard_is_sufficient(opened):
+def test_questions_can_be_answered_by_keyboard_alone(opened):
     page = opened(Asked("made.p1", words(), None))
     page.keyboard.press("Tab")
     page.keyboard.press("ArrowDown")
@@ -145,7 +145,7 @@ def test_keyboard_is_sufficient(opened):
         ("0", "Right is 200 mm."),
     ],
 )
-def test_numbers_are_judged_alike_in_page_and_notebook(opened, typed, says):
+def test_page_and_notebook_judge_numbers_alike(opened, typed, says):
     page = opened(Asked("made.p2", TYPED, None))
     assert "100" not in seen(page) and "200" not in seen(page)
     page.get_by_label("your guess, mm").fill(typed)
@@ -176,7 +176,7 @@ def test_page_remembers_and_forgets_choices(opened, browser):
     )
 
 
-def test_forbidden_storage_does_no_harm(opened, browser):
+def test_page_works_when_storage_is_forbidden(opened, browser):
     context = browser.new_context()
     context.add_init_script(
         "Object.defineProperty(window, 'localStorage', {get() { throw new Error('no'); }});"
@@ -265,7 +265,7 @@ NEIGHBOURS = """cell => [cell.previousElementSibling, cell, cell.nextElementSibl
 
 def test_question_in_jupyterlab_works_and_keeps_its_keys(jupyter, page):
     """The notebook is trusted and has never run: the question works by keyboard, and none of its
-    keys is a command of the notebook.
+    keys triggers a notebook command.
     """
     name = test_browser._variant(jupyter, "asked.ipynb")
     jupyter.trust(name)

@@ -212,7 +212,7 @@ def test_invalid_races_are_refused():
     with pytest.raises(ValueError, match=r"methods: wanted a dict of name -> function, got 3"):
         race(3, ARMS["equal"], K, before[0])
     dice = random_choice(5)
-    with pytest.raises(ValueError, match="methods: wanted each function once, got {'one'"):
+    with pytest.raises(ValueError, match="methods: wanted each function only once, got {'one'"):
         race({"one": dice, "two": dice}, ARMS["equal"], K, before[0])
     with pytest.warns(UserWarning, match="were degrees meant"):
         pseudo_inverse(ARMS["equal"], K[0], before[0] / deg)

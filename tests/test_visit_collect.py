@@ -1385,12 +1385,12 @@ def test_wrong_calls_are_refused():
         (
             lambda: lowest(5, 4, (0, 0, 13), (0, 0, 0)),
             ValueError,
-            "q_from: wanted joints within two turns, got 13 rad",
+            "q_from: wanted joint values within two turns, got 13 rad",
         ),
         (
             lambda: lowest(5, 4, (0, 0, 0), (0, -12.6, 0)),
             ValueError,
-            "q_to: wanted joints within two turns, got 12.6 rad",
+            "q_to: wanted joint values within two turns, got 12.6 rad",
         ),
         (
             lambda: lowest(5, 4, np.zeros((2, 3)), np.zeros((4, 3))),

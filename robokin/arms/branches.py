@@ -48,8 +48,8 @@ def representative(arm: Arm, q: ArrayLike) -> Floats:
     """
     values = floats(q, "q", len(instance(arm, Arm, "arm").links), finite=False)
     value, (low, high) = _inside(arm, values, values), arm.limits.T
-    # Past the limits: the lowest value above the upper limit or the highest value below the lower
-    # limit.
+    # Two candidates past the limits: the lowest value above the upper limit and the highest value
+    # below the lower limit.
     above = value - TURN * np.floor((value - high) / TURN)
     below = value + TURN * np.floor((low - value) / TURN)
     least = np.where(above - high <= low - below, above, below)
@@ -97,8 +97,8 @@ def follow(arm: Arm, rows: ArrayLike, row: int) -> Floats:
     """
     options = _rows(arm, rows)
     if options.ndim < 3 or options.shape[-3] == 0:
-        got = options.shape
-        raise ValueError(f"rows: wanted shape (..., samples, rows, n) with samples, got {got}")
+        wanted = "wanted shape (..., samples, rows, n) with at least one sample"
+        raise ValueError(f"rows: {wanted}, got {options.shape}")
     whole(row, "row", 0, options.shape[-2] - 1)
     choose = _chooser(arm)
     q = np.full((*options.shape[:-2], options.shape[-1]), np.nan)

@@ -23,10 +23,11 @@ def _at(x: float, y: float, z: float) -> Transform:
 #: of the document, with its frame `wrist` split in two (joints 4 and 5). Public models of this
 #: robot (ROS-Industrial abb_experimental, ARTE) differ: their upper arm is 360 mm long, ours 350
 #: mm, and their joint 2 leans forward at positive angles, ours backward. With q2 negated, their
-#: flange is 10 mm from ours at every posture; with q2 = 30 degrees in both and all other joints at
-#: zero, 563 mm (errata S1-g; companion 001, section 2). ARTE limits joint 5 to +-120 degrees. We
-#: keep the document's values. It states no speeds. Those of joints 3 and 4 are our choice, below
-#: the 260 and 360 of the public models; we did not have the manufacturer's data sheet.
+#: flange is 10 mm from ours at every posture; without the negation it is 563 mm away at q2 = 30
+#: degrees, all other joints at zero (errata S1-g; companion 001, section 2). ARTE limits joint 5 to
+#: +-120 degrees. We keep the document's values. It states no speeds. Those of joints 3 and 4 are
+#: our choice, below the 260 and 360 degrees/s of the public models; we did not have the
+#: manufacturer's data sheet.
 IRB140 = spherical_wrist(
     "IRB-140",
     links=(
@@ -118,9 +119,9 @@ def loader_arm(A: float, B: float) -> ClosedFormArm:
     beta) from the base outwards.
 
     alpha  the rotation about the vertical, counter-clockwise from the +x axis
-    gamma  the angle of lever A above the horizon
+    gamma  the angle of lever A above the horizontal
     beta   the interior angle between the levers: lever B points gamma + beta - 180 degrees above
-           the horizon
+           the horizontal
 
     The document's posture has the elbow up, 0 <= beta <= 180 degrees: row `arm.branch(+1, -1)`. In
     that row alpha is atan2(y, x) in all nine cells of table 1 (errata S3-p; in the middle cell, x =

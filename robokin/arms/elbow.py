@@ -102,7 +102,7 @@ class Elbow(NamedTuple):
     shoulder_x, shoulder_z  the position of axis 2 in the plane of the arm
     lateral      the point's distance to the left of the plane through axis 1
     upper, fore  the lengths of the links
-    upper_angle, fore_angle  their angles above the horizon at q = 0
+    upper_angle, fore_angle  their angles above the horizontal at q = 0
     reach        how far the stretched arm reaches from axis 1
     """
 
@@ -157,8 +157,8 @@ class Elbow(NamedTuple):
         NaN where there is no solution.
 
         It also returns the directions that a wrist needs: (cosine, sine) of the arm's plane (2, 1,
-        N) and of the forearm's angle above the horizon (2, 2, N). Angles are kept as pairs (cosine,
-        sine), so that only the joint values need an arctangent.
+        N) and of the forearm's angle above the horizontal (2, 2, N). Angles are kept as pairs
+        (cosine, sine), so that only the joint values need an arctangent.
         """
         a, b, c = self.shoulder_x, self.lateral, self.shoulder_z
         upper, fore = self.upper, self.fore
@@ -173,7 +173,7 @@ class Elbow(NamedTuple):
         tiny = FREE * self.reach
         free = rho2 <= tiny * tiny
         cos1 = np.where(free, front, (x * r + y * b) / rho2)
-        # no negative zero, so that half a turn is +pi
+        # + 0.0 removes a negative zero, so that half a turn is +pi
         sin1 = np.where(free, 0.0, (y * r - x * b) / rho2) + 0.0
 
         # Joints 2 and 3: the triangle of upper arm, forearm and the line from shoulder to point.
@@ -186,7 +186,7 @@ class Elbow(NamedTuple):
         d2, scale = u * u + w * w, 2 * upper * fore
         unfolded = (d2 - (upper - fore) * (upper - fore)) / scale
         unstretched = ((upper + fore) * (upper + fore) - d2) / scale
-        # How much these two change at the borders per metre, times the reach.
+        # The rates at which these two change per metre at the borders, times the reach.
         inner = 2 * abs(upper - fore) * self.reach / scale
         outer = 2 * (upper + fore) * self.reach / scale
         exists = (unfolded >= -ROUNDING * inner) & (unstretched >= -ROUNDING * outer)
@@ -196,9 +196,9 @@ class Elbow(NamedTuple):
         elbow = self.sign3 * np.array([1.0, -1.0])[:, None]
         cos_g, sin_g = unfolded - 1, elbow * np.sqrt(unfolded * unstretched)
         along, across = (upper - fore) + fore * unfolded, fore * sin_g
-        # angle of the upper arm above the horizon
+        # angle of the upper arm above the horizontal
         cos_a, sin_a = _unit(along * u + across * w, along * w - across * u)
-        # angle of the forearm above the horizon
+        # angle of the forearm above the horizontal
         cos_b, sin_b = cos_a * cos_g - sin_a * sin_g, sin_a * cos_g + cos_a * sin_g
 
         q1 = np.where(exists, np.arctan2(self.sign1 * sin1, cos1), np.nan)
@@ -232,8 +232,8 @@ class Elbow(NamedTuple):
         x, y, z = point
         rho2 = x * x + y * y
         r2 = rho2 - self.lateral * self.lateral
-        # A point that is past this border only by rounding counts as on it: then another border is
-        # the reason.
+        # A point that is past this border only by rounding counts as on it, so another border must
+        # be the reason.
         if r2 < -2 * ROUNDING * abs(self.lateral) * self.reach:
             return Gap("axis", abs(self.lateral) - sqrt(rho2), self.carried)
         r = front * sqrt(max(r2, 0.0))

@@ -22,7 +22,8 @@ from .verdicts import SENTENCES
 
 ROUNDING = 1e-12  # a point past a border by no more than this counts as on it
 STRAIGHT = 1e-14  # an arm this near to stretched or folded has two equal elbow rows
-FREE = 1e-13  # within this of axis 1 the angle of joint 1 is noise, and the joint is free
+# nearer to axis 1 than this, the angle of joint 1 is rounding noise, so the joint is free
+FREE = 1e-13
 SINGULAR = 1e-6  # rad, or fraction of reach: a posture this near a singularity counts as singular
 UPRIGHT = 1e-9  # rad; a tool tilted by less than this counts as upright
 
@@ -180,7 +181,8 @@ def two_levers(upper: float, fore: float, d: Floats) -> tuple[Floats, Floats, Bo
     exists = (stretch >= -slack) & (fold >= -slack)
     stretch, around = np.maximum(stretch, 0), upper + fore + d
     short, long = np.maximum(d - (upper - fore), 0), np.maximum(d + (upper - fore), 0)
-    with np.errstate(over="ignore"):  # no warning for a point 1e200 m away: it is out of reach
+    # a point 1e200 m away is out of reach and must not cause a warning
+    with np.errstate(over="ignore"):
         ahead = 2 * np.arctan2(np.sqrt(stretch * short), np.sqrt(around * long))
         turn = 2 * np.arctan2(np.sqrt(stretch * around), np.sqrt(short * long))
     return ahead, turn, exists

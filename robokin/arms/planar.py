@@ -162,7 +162,7 @@ class ThreeLeverArm(Arm):
         many = 0.0 if np.isnan(low) else (np.pi - low) / width + 1 + 1e-9
         if many > MOST_ROWS:
             raise ValueError(
-                f"step: wanted at most {MOST_ROWS} rows, got {step!r}: {many:.3g} rows"
+                f"step: wanted a step for at most {MOST_ROWS} rows, got {step!r}: {many:.3g} rows"
             )
         rows = self.family(point, np.minimum(low + width * np.arange(int(many)), np.pi))
         return rows[(rows[:, 0] >= 0) & (rows[:, 0] <= np.pi)] if limited else rows

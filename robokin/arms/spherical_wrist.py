@@ -90,8 +90,8 @@ class SphericalWristGeometry(Sealed):
         tool, centre = wrist.at(rotation, origin)
         first, (cos1, sin1), fore = self.elbow.solve(*centre)
 
-        # Joints 4 to 6: the wrist's frame at the tool, seen from the forearm, whose axis 4 points
-        # forward by ce and up by se.
+        # Joints 4 to 6 orient the wrist's frame at the tool relative to the forearm, whose axis 4
+        # has a forward component ce and an upward component se.
         ce, se = rotated(*fore, wrist.axis4 - self.elbow.fore_angle)
         ahead = [cos1 * tool[0][k] + sin1 * tool[1][k] for k in range(3)]
         aside = [wrist.sign5 * (cos1 * tool[1][k] - sin1 * tool[0][k]) for k in range(3)]
@@ -152,7 +152,7 @@ class Wrist(NamedTuple):
     """The last three joints, measured from the links at q = 0.
 
     sign5, sign6  +1 or -1: axis 5 points along +y or -y, axis 6 along or against axis 4
-    axis4         angle of axis 4 above the horizon
+    axis4         angle of axis 4 above the horizontal
     from_flange   the quaternion w, x, y, z from the flange to the wrist's own frame, in which axis
                   5 is y and axis 4 is z
     centre_from_flange  the vector x, y, z from the flange to the wrist centre, in the wrist's own

@@ -109,6 +109,6 @@ class TwoLinkGeometry(Sealed):
     def _way(self, pose: Any) -> tuple[Floats, Floats, Floats, Floats]:
         """The vector from base to tip: x, y, its length d, and the tip's height off the plane."""
         x, y, z = coordinates(pose)
-        # -0.0 becomes 0: atan2 distinguishes them, a point does not
+        # -0.0 becomes 0, since atan2 distinguishes the two although they are the same coordinate
         x, y = x - self.base[0] + 0.0, y - self.base[1] + 0.0
         return x, y, distance(x, y), abs(z)

@@ -53,11 +53,11 @@ Exit status: 0    every task solved
              1    a file skipped, or the output or the log could not be written
              2    nothing to do: wrong usage, no such folder, no *.json in it
              130  stopped with Ctrl+C"""
-BIG = 1_000_000  # bytes: a file up to this size is solved quickly
+BIG = 1_000_000  # bytes; smaller files are solved quickly
 
 log = logging.getLogger("robokin.jobs")  # writes to output.log
-answers = log.getChild("answers")  # also writes to standard output
-end = log.getChild("end")  # also writes to standard error; then the run ends
+answers = log.getChild("answers")  # writes to output.log and standard output
+end = log.getChild("end")  # writes the last message of a run to output.log and standard error
 
 
 def main(argv: Sequence[str] | None = None) -> int:
@@ -164,7 +164,7 @@ class Output(logging.StreamHandler[TextIO]):
         """`emit` calls this when the stream raises an error."""
         self.setLevel(logging.CRITICAL + 1)
         _lose(self.title, sys.exc_info()[1], self.lost)
-        # Discard what is left in its buffer; otherwise closing it would fail again.
+        # Discard what is left in the stream's buffer; otherwise closing it would fail again.
         with contextlib.suppress(OSError), open(os.devnull, "w") as nowhere:
             os.dup2(nowhere.fileno(), self.stream.fileno())
 
@@ -178,8 +178,8 @@ def outputs() -> Iterator[list[str]]:
     with contextlib.ExitStack() as stack:
         try:
             _lock_folder(stack)
-            # Remove and create it instead of overwriting: it may be a link to a file that must not
-            # change.
+            # Remove the old log and create a new one: overwriting it could change another file, if
+            # it is a link.
             with contextlib.suppress(FileNotFoundError):
                 os.remove(LOG)
             file = stack.enter_context(open(LOG, "x", encoding="utf-8", errors="backslashreplace"))
@@ -197,7 +197,7 @@ def outputs() -> Iterator[list[str]]:
         stack.callback(log.setLevel, log.level)
         stack.callback(setattr, log, "propagate", log.propagate)
         log.setLevel(logging.DEBUG)
-        log.propagate = False  # keep these lines out of the caller's own log
+        log.propagate = False  # keep these messages out of the caller's own log
         yield lost
 
 

@@ -22,8 +22,8 @@ from .._validate import floats, length, number, positive, short, whole
 from ..arms.geometry import ROUNDING
 
 # These limits keep every call to a few seconds:
-MOST = 1_000  # objects on the belt
-PLACES = 500  # places in a window
+MOST = 1_000  # greatest number of objects on the belt
+PLACES = 500  # greatest number of places in a window
 ARMS = 100
 
 
@@ -85,9 +85,9 @@ def serve(
     ways        (m,) in s: the time from the arm's bin to each place, and the same for the way back
     arms        the number of equal arms along the belt, `pitch` metres apart
     pitch       at least the window's length (the default), so that no two windows overlap
-    first_come  which rule to use. A free arm picks the object with which it is back soonest, or,
-                with `first_come`, the first object on the belt that it can still reach. It picks
-                an object at the first place where it can be in time.
+    first_come  which rule to use. A free arm picks the object that it can bring back soonest or,
+                with `first_come`, the first object on the belt that it can still reach. It picks an
+                object at the first place where it can be in time.
 
     Both rules are greedy and may pick fewer objects than possible. The arm stands still while it
     grips, which takes no time. ValueError: wrong shapes, numbers that do not increase.
@@ -102,14 +102,15 @@ def serve(
     span = float(along[-1] - along[0])
     apart = span if pitch is None else number(pitch, "pitch")
     if apart < span * (1 - ROUNDING):
-        raise ValueError(f"pitch: wanted at least the window's {span:g} m, got {apart:g} m")
+        wanted = f"wanted at least the window's length of {span:g} m"
+        raise ValueError(f"pitch: {wanted}, got {apart:g} m")
     if not isinstance(first_come, (bool, np.bool_)):
         raise ValueError(f"first_come: wanted True or False, got {short(first_come)}")
     with np.errstate(over="ignore"):
         delays, last = (along - along[0]) / speed, (reach[-1] + ARMS * apart) / speed
     if not np.isfinite([*delays, last]).all():
         raise ValueError(
-            f"v: wanted a speed at which the objects arrive in a finite time, got {speed:g} m/s"
+            f"v: wanted a speed at which the objects arrive in finite time, got {speed:g} m/s"
         )
     left, done = np.arange(len(reach)), []
     for k in range(whole(arms, "arms", 1, ARMS)):
@@ -126,14 +127,14 @@ def _trips(arrivals: Floats, delays: Floats, ways: Floats, first_come: bool) -> 
     """The trips of one arm.
 
     arrivals  (n,) when the objects reach its window
-    delays    (m,) how much later they arrive at each place
+    delays    (m,) how much later they reach each place
     """
     free, trips, left = 0.0, [], np.ones(len(arrivals), dtype=bool)
     slack = (delays - ways).max()  # an object can be picked if free <= arrival + slack
     while True:
-        # Objects before `low` have passed. Behind the first object that reaches the window no
-        # sooner than the arm does, all others are picked at the first place too, only later.
-        low = np.searchsorted(arrivals, free - slack - 1e-9)  # 1e-9 s: more than rounding errors
+        # Objects before `low` have passed. Only the first of the objects that the arm can pick at
+        # the first place is compared: those behind it would be picked there too, but later.
+        low = np.searchsorted(arrivals, free - slack - 1e-9)  # 1e-9 s exceeds rounding errors
         high = np.searchsorted(arrivals, free + ways[0]) + 1
         found = low + np.flatnonzero(left[low:high])
         at = arrivals[found, None] + delays

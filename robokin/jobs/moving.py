@@ -1,9 +1,9 @@
 """Plans for the three-lever arm past an obstacle that moves along a line at the same time.
 
-`plan` in `robokin.jobs.obstacles` keeps a clearance at every place; here the arm keeps it at every
-place and time. The obstacle is at H + v t, the arm is in its posture at t, and between two postures
-all joints turn at constant speed. The bound that proves a clearance grows by the distance that the
-obstacle moves in the meantime.
+`plan` in `robokin.jobs.obstacles` keeps a clearance from a fixed obstacle; here the arm keeps it
+from a moving one at all times. The obstacle is at H + v t, the arm is in its posture at t, and
+between two postures all joints turn at constant speed. The bound that proves a clearance grows by
+the distance that the obstacle moves in the meantime.
 """
 
 from typing import TypeAlias
@@ -33,9 +33,11 @@ from .obstacles.posture_grid import (
     way_back,
 )
 
-Found: TypeAlias = tuple[str, str, Floats, Floats]  # way, words and path of a plan, and its times
+# `way`, `words` and `path` of a plan, and the time of each posture
+Found: TypeAlias = tuple[str, str, Floats, Floats]
 
-TICKS = 120  # how many ticks of STEP the search looks ahead
+# number of ticks that the search looks ahead; in each, the joints can turn by STEP in total
+TICKS = 120
 
 
 def plan_moving(
@@ -70,8 +72,9 @@ def plan_moving(
     ahead = TICKS * STEP / speed
     if ahead * max(1, np.hypot(*v)) > FARTHEST:
         raise ValueError(
-            f"speed: wanted one at which {TICKS} ticks of {STEP / deg:.0f} degrees take at most "
-            f"{FARTHEST:g} s and the obstacle moves at most {FARTHEST:g} m in them, got {speed!r}"
+            f"speed: wanted a speed at which {TICKS} ticks of {STEP / deg:.0f} degrees take at "
+            f"most {FARTHEST:g} s and the obstacle moves at most {FARTHEST:g} m meanwhile, got "
+            f"{speed!r}"
         )
     ticks = np.linspace(0, ahead, TICKS + 1)
     unreached, now = arm.out_of_reach(K1), np.zeros(1)
@@ -110,7 +113,7 @@ def _wait(
     v: Floats,
     distance: float,
 ) -> Found | None:
-    """The direct motion after the shortest wait in ticks; None if it is never free."""
+    """The direct motion after the shortest wait in ticks; None if no wait makes it safe."""
     still = motions_keep(
         arm, np.tile(start, (TICKS, 1)), start, _positions(H, v, ticks[:-1], ticks[1:]), distance
     )
@@ -138,7 +141,7 @@ def _search(
     v: Floats,
     distance: float,
 ) -> Found | None:
-    """The first path found through the grid of postures; None if there is none."""
+    """The first path found through the grid of postures; None if none is found."""
     goals = target_curve(arm, K1)
     axes, start = grid_axes(arm, q0)
     size = [len(axis) for axis in axes]

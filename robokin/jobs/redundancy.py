@@ -1,5 +1,5 @@
 """Methods that choose the posture of a redundant arm: those that source 003 describes in part I,
-and a race of all of them against its own, the least movement.
+and a race of all of them against the method of source 003 itself, the least movement.
 
 Each method takes an arm of three levers, targets (..., 2) in metres and the previous postures (...,
 3), and returns postures (..., 3) at the targets, in radians. A row is NaN if the method fails, that
@@ -21,15 +21,15 @@ from .obstacles import distances
 
 Method: TypeAlias = Callable[[ThreeLeverArm, ArrayLike, ArrayLike], Floats]
 
-STRIDE = 0.1  # lever lengths: the gripper's greatest step
-TURN = 10 * deg  # a joint's greatest rotation in one step
+STRIDE = 0.1  # greatest step of the gripper, in lever lengths
+TURN = 10 * deg  # greatest rotation of a joint in one step
 STEPS = 200  # a motion that has not arrived after this many steps has failed
-ARRIVED = 1e-9  # lever lengths: the gripper this near to the target has arrived
-FLAT = 1e-4  # lever lengths; damps pseudo-inverses, so that a stretched arm causes no division by 0
-NEAR = 0.5  # lever lengths: an obstacle farther away than this stops no joint
-PULL = 0.1  # fraction of the way to the middle of the limits in one step
-SLACK = 1e-9  # rad: an angle past a limit by no more than this is a rounding error
-SAME = 1e-12  # lever lengths; distances that differ by less count as equal
+ARRIVED = 1e-9  # lever lengths; a gripper at most this far from the target has arrived
+FLAT = 1e-4  # lever lengths; damps the pseudo-inverse, so that it exists for a stretched arm
+NEAR = 0.5  # lever lengths; an obstacle farther away than this does not stop any joint
+PULL = 0.1  # fraction of the distance to the middle of its limits that a joint aims for in one step
+SLACK = 1e-9  # rad; an excess over a limit of no more than this is a rounding error
+SAME = 1e-12  # lever lengths; distances that differ by less than this count as equal
 
 
 class RaceResult(NamedTuple):
@@ -37,7 +37,7 @@ class RaceResult(NamedTuple):
 
     postures  (n, 3); NaN where the arm cannot reach the target and does not move
     turns     (n,) the sum of the absolute angle changes in radians
-    failed    (n,) bool: the method failed, and the least movement did the task instead
+    failed    (n,) bool: whether the method failed and the least movement was used instead
     seconds   the method's mean computing time per target
     """
 
@@ -62,8 +62,9 @@ def race(
         raise ValueError(f"targets and start: wanted shapes (n, 2) and (3,), got {got}")
     if not isinstance(methods, Mapping) or not all(map(callable, methods.values())):
         raise ValueError(f"methods: wanted a dict of name -> function, got {short(methods)}")
-    if len(set(map(id, methods.values()))) < len(methods):  # they would share random numbers
-        raise ValueError(f"methods: wanted each function once, got {short(methods)}")
+    # a repeated function would share its random numbers
+    if len(set(map(id, methods.values()))) < len(methods):
+        raise ValueError(f"methods: wanted each function only once, got {short(methods)}")
     runs = {}
     for name, method in methods.items():
         stand, seconds = start, 0.0
@@ -164,7 +165,7 @@ def distance_rule(obstacle: ArrayLike) -> Method:
     lever stops: the nearest of those that are within half a length of the obstacle and approach it.
     Its joint does not move in that step, or turns away if the lever is nearer than L/7, and the
     other two joints move the gripper. Source: 003, I.4 (M. Benzaoui), which describes it in words
-    and gives no length: if every lever stops at any distance, more tasks fail.
+    and gives no length: if levers stop however far away the obstacle is, more tasks fail.
 
     Two levers are equally near whenever the nearest place is the joint between them. Then the lever
     nearer to the base stops, since its joint moves that place and the other joint does not.
@@ -216,8 +217,8 @@ def _go(
     previous: Floats,
     step: Callable[[Floats, Floats, Floats], Floats],
 ) -> Floats:
-    """Go to the target step by step: `step(q, J, e)` converts the gripper's step into the joints'
-    step. A joint stops at its limits.
+    """Go to the target step by step: `step(q, J, e)` converts a step of the gripper into a step of
+    the joints. A joint stops at its limits.
     """
     q = previous
     for _ in range(STEPS):
@@ -241,8 +242,8 @@ def _bounded(dq: Floats) -> Floats:
 
 
 def _haste(arm: ThreeLeverArm, e: Floats) -> Floats:
-    """A factor that is 1 on the way and falls to 0 near the target, where secondary motions must
-    come to rest.
+    """A factor that is 1 on the way and falls to 0 near the target, so that secondary motions come
+    to rest there.
     """
     haste: Floats = np.linalg.norm(e, axis=-1, keepdims=True) / (STRIDE * arm.lever)
     return haste

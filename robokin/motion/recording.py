@@ -22,7 +22,7 @@ from .derivatives import differentiate, rising
 
 LEAP = 0.002  # rad or m: a smaller change is never a jump in position
 FEW = 8  # with fewer changes in speed, the noise level is unknown
-# a jump: its motion, first and last sample and time, and the values before and after it (n,)
+# a jump: index of its motion, first and last sample, time, and the values (n,) before and after it
 Found: TypeAlias = tuple[int, int, int, float, Floats, Floats]
 
 
@@ -359,7 +359,7 @@ def _jumps(speeds: Floats, t: Floats) -> list[Found]:
     for c in np.flatnonzero(sure.any(axis=(1, 2))):
         for run in _groups(np.flatnonzero(sure[c].any(axis=-1))):
             first, last = run[0], run[-1]
-            # A corner between two samples appears in two changes, in one of them perhaps only
+            # A corner between two samples shows in two changes, in one of them perhaps only
             # faintly. (There are always two more changes on each side of a jump in `sure`.)
             first -= part[c, first - 1].any()
             last += part[c, last + 1].any()

@@ -8,7 +8,7 @@ from ...arms.planar import ThreeLeverArm
 from ...units import deg
 
 SLACK = 1e-9  # an angle past a limit by no more than this is a rounding error
-FARTHEST = 1e9  # rad or m; a larger float is too coarse for an angle or a place
+FARTHEST = 1e9  # rad or m; larger floats are too coarse for angles and positions
 
 
 def read_angles(value: ArrayLike, name: str, finite: bool = True) -> Floats:

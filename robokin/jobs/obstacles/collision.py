@@ -1,5 +1,5 @@
-"""Measurements of how near the levers come to the obstacle and where it is; `planner` decides what
-is safe.
+"""Measurements of how near the levers come to the obstacle, and of its location; `planner` decides
+what is safe.
 """
 
 from collections.abc import Callable
@@ -13,9 +13,10 @@ from ...arms.two_link import two_link
 from .arguments import read_angles, read_obstacles, read_path, read_point, read_points, read_posture
 
 LEVERS = ("OB", "BA", "AK")
-TOLERANCE = 1e-6  # lever lengths: the accuracy of a clearance
-CLOSE = 1e-9  # lever lengths: `keeps` does not distinguish distances that differ by less
-WORK = 1_000_000  # greatest number of motion pieces, or grid postures, in one call: about 1 s
+TOLERANCE = 1e-6  # accuracy of a clearance, in lever lengths
+CLOSE = 1e-9  # lever lengths; `keeps` does not distinguish distances that differ by less than this
+# greatest number of motion pieces, or grid postures, in one call, which then takes about 1 s
+WORK = 1_000_000
 PORTION = 50_000  # pieces measured at a time, to limit memory
 
 
@@ -100,9 +101,9 @@ def keeps(arm: ThreeLeverArm, a: ArrayLike, b: ArrayLike, H: ArrayLike, distance
     """Whether all levers keep this distance (metres) from H, one obstacle (2,) or several (m, 2),
     on the motions from postures a (..., 3) to b (..., 3): bool (...).
 
-    It is as certain as `clearance` and faster, since it stops measuring a motion at the first piece
-    that is too near. A motion that exceeds the distance by less than 1e-9 of a lever's length may
-    count as too near. ValueError: motions that need more than `WORK` pieces.
+    It is as reliable as `clearance` and faster, since it stops measuring a motion at the first
+    piece that is too near. A motion that exceeds the distance by less than 1e-9 of a lever's length
+    may count as too near. ValueError: motions that need more than `WORK` pieces.
     """
     instance(arm, ThreeLeverArm, "arm")
     a, b = read_angles(a, "a"), read_angles(b, "b")
@@ -118,7 +119,7 @@ def keeps(arm: ThreeLeverArm, a: ArrayLike, b: ArrayLike, H: ArrayLike, distance
 
 
 def lever_distances(arm: ThreeLeverArm, q: Floats, H: Floats) -> Floats:
-    """`distances` for postures q (..., 3) and H (..., 2)."""
+    """`distances` without argument checks, for postures q (..., 3) and H (..., 2)."""
     q = np.broadcast_to(q, (*np.broadcast_shapes(q.shape[:-1], H.shape[:-1]), 3))
     return np.moveaxis(_seen(arm, np.moveaxis(q, -1, 0), H)[0], 0, -1)
 
@@ -149,7 +150,7 @@ def motions_keep(arm: ThreeLeverArm, a: Floats, b: Floats, H: Floats, distance: 
 
     def halve(part: Ints, here: Floats, bound: Floats) -> Bools:
         doubtful = bound < distance
-        # a distance within the tolerance counts as too near
+        # a distance that cannot be told from one that is too small counts as too near
         near = (here < distance) | (doubtful & (here - bound < CLOSE * arm.lever))
         good[part[near.any(axis=0)]] = False
         return good[part] & doubtful.any(axis=0)
@@ -181,7 +182,7 @@ def _measure(
         if work > WORK:
             turn = abs(b - a).sum()
             raise ValueError(
-                f"motions: wanted at most {WORK} pieces to be measured, got {work} or more for "
+                f"motions: wanted motions that need at most {WORK} pieces, got {work} or more for "
                 f"{len(a)} motions of {turn:.6g} rad in total"
             )
         now, later = slice(-PORTION, None), slice(None, -PORTION)
@@ -253,7 +254,8 @@ def _inside(corners: Floats, point: Floats) -> Bools:
     crossings, on_side = np.zeros(point.shape[:-1]), np.zeros(point.shape[:-1], dtype=bool)
     for (x0, y0), (x1, y1) in zip(corners, np.roll(corners, -1, axis=0), strict=True):
         x, y = point[..., 0], point[..., 1]
-        left = (x1 - x0) * (y - y0) - (y1 - y0) * (x - x0)  # > 0: left of the side
+        # positive if the point is to the left of the side
+        left = (x1 - x0) * (y - y0) - (y1 - y0) * (x - x0)
         crossings = crossings + ((y0 > y) != (y1 > y)) * ((left > 0) == (y1 > y0))
         within = (x - x0) * (x - x1) + (y - y0) * (y - y1) <= 0
         on_side = on_side | (within & (abs(left) <= 1e-12 * np.hypot(x1 - x0, y1 - y0)))

@@ -19,8 +19,8 @@ from .collision import LEVERS, TOLERANCE, lever_distances, motion_clearances
 from .posture_grid import STEP, way_round
 
 WAYS = ("direct", "via points", "wait", "search", "none")
-# The circles of the via points around H, in lever lengths. With the document's circle, 1/7, the
-# path comes nearer than 1/7 to H; with a larger one it may keep that distance.
+# Radii of the circles around H on which via points are tried, in lever lengths. With the document's
+# radius, 1/7, the path comes nearer than 1/7 to H; with a larger one it may keep that distance.
 CIRCLES = (1 / 7, 0.16, 0.18, 0.20, 0.225, 0.25)
 
 
@@ -33,7 +33,7 @@ def via_points(K: ArrayLike, K1: ArrayLike, H: ArrayLike, radius: float) -> Floa
 
     The printed formulas (40), (41) and table 6 swap two legs: their points lie on the circle, but
     not on the perpendiculars, and on either side (errata S3-m). ValueError: H coincides with K or
-    K1, so that there is no line.
+    K1, so that a direction is undefined.
     """
     K, K1, H = read_point(K, "K"), read_point(K1, "K1"), read_point(H, "H")
     radius = length(radius, "radius")
@@ -71,8 +71,8 @@ def via_path(
 class Plan(Sealed):
     """The result of `plan`.
 
-    way        "direct", "via points", "search", or "none"; "wait" where the obstacle moves
-    words      the result in sentences
+    way        "direct", "via points", "search", or "none"; also "wait" if the obstacle moves
+    words      sentences that describe the result
     path       (k, 3) postures, beginning with the start; (1, 3) if no path was found and the
                arm does not move
     clearance  (k - 1, 3) least distance of the levers OB, BA, AK from the obstacle on each part;
@@ -112,8 +112,8 @@ class Plan(Sealed):
             raise ValueError(f"least: wanted one sum of angle changes, got {short(self.least)}")
         radius = floats(self.radius, "radius", finite=False)
         if radius.ndim or np.isnan(radius) == (self.way == "via points") or radius <= 0:
-            wanted = f"wanted one length for way 'via points', NaN for others, here {self.way!r}"
-            raise ValueError(f"radius: {wanted}, got {short(self.radius)}")
+            wanted = "wanted one length for way 'via points' and NaN for all other ways"
+            raise ValueError(f"radius: {wanted}, got {short(self.radius)} for {self.way!r}")
         object.__setattr__(self, "radius", float(radius))
         object.__setattr__(self, "path", frozen(path))
         object.__setattr__(self, "clearance", frozen(np.asarray(self.clearance, dtype=float)))
@@ -153,9 +153,10 @@ def plan(
 
     All levers keep `distance` (metres; L/7 by default) from the obstacle along the whole path, or
     the plan says that none was found. It tries in this order: the direct motion with the least
-    movement; the document's via points K2, K3 on circles of `CIRCLES` lever lengths, with a radius
-    of at least the distance and L/7, of which it takes the first that keeps the distance; a search
-    among postures. Angles stay within 0 to 180 degrees. ValueError: a posture outside these limits.
+    movement; the document's via points K2, K3 on the smallest circle whose path keeps the distance
+    (its radius is the distance or L/7, whichever is greater, or a greater one of `CIRCLES`); a
+    search among postures. Angles stay within 0 to 180 degrees. ValueError: a posture outside these
+    limits.
 
     The path keeps clear of all obstacles (m, 2); the via points lie around the first one that is in
     the way.
@@ -206,7 +207,7 @@ def along(path: ArrayLike, s: ArrayLike) -> Floats:
 
 
 def no_plan(start: Floats, words: str, least: float = np.nan) -> Plan:
-    """A plan without a path; the words say why."""
+    """A plan without a path; its `words` give the reason."""
     return Plan("none", words, start[None], np.empty((0, 3)), least)
 
 
@@ -235,7 +236,7 @@ def _by_via_points(
     arm: ThreeLeverArm, direct: Floats, K1: Floats, H: Floats, distance: float
 ) -> tuple[tuple[Floats, Floats, float] | None, str]:
     """The path through via points on the first circle that keeps the distance, with its clearance
-    and the radius, or None; and what the plan says about it.
+    and the radius, or None; also the sentence about it for the plan.
     """
     first = _in_the_way(arm, direct, H, distance)
     radii = np.array([each for each in CIRCLES if each * arm.lever > distance]) * arm.lever
@@ -272,8 +273,8 @@ def _nearest(arm: ThreeLeverArm, clear: Floats, H: Floats) -> str:
 
 
 def _in_the_way(arm: ThreeLeverArm, direct: Floats, H: Floats, distance: float) -> int:
-    """The first of several obstacles that is in the way, otherwise the nearest one. It is found by
-    sampling, which guarantees nothing.
+    """The index of the obstacle that is first in the way on the path, or of the nearest one if none
+    is. It is found by sampling, so it is not guaranteed.
     """
     near = lever_distances(arm, along(direct, np.linspace(0, 1, 100)), H).min(axis=-1)  # (m, 100)
     first = np.where((near < distance).any(axis=1), (near < distance).argmax(axis=1), near.shape[1])

@@ -23,13 +23,13 @@ Steps: TypeAlias = np.ndarray[tuple[int, ...], np.dtype[np.int16]]
 Node: TypeAlias = tuple[int, ...]
 
 STEP = 5 * deg  # step of the grid of postures in `way_round`
-# Margins between the grid's postures and the clearance, in lever lengths, tried in this order. One
-# step of the first joint can move the gripper by 0.26 lever lengths: with a small clearance only
-# the last margin keeps steps from jumping over H.
+# Margins added to the clearance for the postures of the grid, in lever lengths, tried in this
+# order. One step of the first joint can move the gripper by 0.26 lever lengths: with a small
+# clearance only the last margin keeps steps from jumping over H.
 MARGINS = (0.005, 0.03, 0.13)
 NEVER = 10_000  # more steps than any path through the grid has
 INSIDE = (slice(-1),) * 3  # the grid without the extra elements
-# the possible moves in a tick: joint, steps
+# the possible moves in a tick: (joint, number of steps)
 MOVES = ((0, 0), (0, -1), (0, 1), (1, -1), (1, 1), (2, -1), (2, 1))
 
 
@@ -39,12 +39,12 @@ def way_round(
     """A path (k, 3) from posture q0 to the target with little movement, on which all levers keep
     the distance from H, one obstacle (2,) or several (m, 2); None if none is found.
 
-    The postures (gamma, beta, alpha) fill a cube with sides of 180 degrees, in which the target is
-    a curve, its `family`. From q0 a breadth-first search spreads through the grid of postures that
-    keep the distance, one step of one joint at a time, so that it reaches each with the least S. We
-    backtrack from the place on the curve with the least S and then remove unnecessary corners.
-    `keeps` checks every part of the path. The grid step is 5 degrees, so a narrower passage may be
-    missed. ValueError: a posture q0 outside the limits.
+    The postures (gamma, beta, alpha) fill a cube with sides of 180 degrees, in which the postures
+    at the target form a curve, its `family`. From q0 a breadth-first search spreads through the
+    grid of postures that keep the distance, one step of one joint at a time, so that it reaches
+    each with the least S. We backtrack from the posture on the curve with the least S and then
+    remove unnecessary corners. `keeps` checks every part of the path. The grid step is 5 degrees,
+    so a narrower passage may be missed. ValueError: a posture q0 outside the limits.
     """
     instance(arm, ThreeLeverArm, "arm")
     q0, K1, H = read_start(arm, q0, "q0"), read_point(target, "target"), read_obstacles(H, "H")
@@ -84,7 +84,7 @@ def target_curve(arm: ThreeLeverArm, K1: Floats, count: int | None = None) -> Fl
 
 def grid_axes(arm: ThreeLeverArm, q: Floats) -> tuple[list[Floats], Node]:
     """For each joint the angles of the grid, in equal steps from its angle in the posture q (3,)
-    towards both limits, and the limits; also the node of q.
+    towards both limits, and the limits; also the grid node of q.
     """
     axes = []
     for value, (low, high) in zip(q, arm.limits, strict=True):
@@ -144,7 +144,7 @@ def spread(steps: Steps, closed: Steps, closed_moves: Sequence[Steps] | None = N
     """The fewest steps to each posture one tick later, when at most one joint has moved by one
     step.
 
-    closed        the postures that are `blocked` then
+    closed        the array from `blocked` for that tick
     closed_moves  for each joint: the postures from which the step to the next one is `blocked`, in
                   both directions; if omitted, no step is blocked
     """
@@ -250,8 +250,8 @@ def coarse_search(
     step is proven to keep the distance, as in lab 10, section 6.
 
     Returns (steps, free, curve): the fewest steps to each posture (n, n, n), `NEVER` where there is
-    no path or the target's curve is reached earlier; the postures that keep the distance; the curve
-    (31, 3), or (0, 3).
+    no path or where the search ended first, on the target's curve; the postures that keep the
+    distance; the curve (31, 3), or (0, 3).
     """
     axes = [np.arange(low, high + step / 2, step) for low, high in arm.limits]
     grid = np.stack(np.meshgrid(*axes, indexing="ij"), axis=-1)

@@ -1,5 +1,5 @@
-"""Paths that need not be safe (`planner` decides that), and the place where the levers come
-nearest on a path.
+"""Paths that need not be safe (`planner` decides that), and the place on a path where a lever comes
+nearest to the obstacle.
 """
 
 import numpy as np
@@ -31,8 +31,8 @@ def nearest_approach(
     arm: ThreeLeverArm, path: Floats, clearances: Floats, H: Floats
 ) -> tuple[int, float, Floats]:
     """The lever that comes nearest to H (2,) on the path (k, 3) with this `clearance` (k - 1, 3),
-    its distance in metres, and the nearest place (2,) on it. A path (1, 3) is a single posture. The
-    place comes from samples, which is enough for a figure.
+    its distance in metres, and the nearest point (2,) on it. A path (1, 3) is a single posture. The
+    point comes from samples, which are accurate enough for a figure.
     """
     each = clearances.min(axis=0) if len(path) > 1 else lever_distances(arm, path[0], H)
     lever, near = int(each.argmin()), float(each.min())

@@ -1,4 +1,4 @@
-"""Moves of stepper motors: their positions at stations and over time, and their pulses."""
+"""Moves of stepper motors: motor positions at stations and over time, and pulses."""
 
 from dataclasses import dataclass
 
@@ -14,7 +14,8 @@ from ...units import deg, wrapped
 LIMIT = 500.0  # pulses per second, the greatest frequency. Source: 003, paper 1, (8)
 SAMPLES = 1001  # number of postures along a straight line
 SLACK = 1e-9  # a position within this of a whole pulse counts as that pulse
-COUNTED = 2**52  # pulses from zero: a float represents each one exactly
+# greatest distance from zero in pulses; up to it a float represents every whole number exactly
+COUNTED = 2**52
 LISTED = 10_000_000  # greatest number of pulses that one call lists
 STRETCHES = 100_000  # greatest number of stretches of a move whose pulses are listed
 
@@ -23,8 +24,8 @@ STRETCHES = 100_000  # greatest number of stretches of a move whose pulses are l
 
 
 def out_of_reach(arm: ClosedFormArm, point: ArrayLike) -> list[str]:
-    """Why the loader's gripper cannot reach a point (3,): a list of reasons in words, empty if it
-    can.
+    """The reasons why the loader's gripper cannot reach a point (3,): a list of strings, empty if
+    it can.
 
     Source: 003, paper 1, (1), and the inner bound |A - B| that it lacks (errata S3-r).
     """
@@ -56,7 +57,7 @@ def station_postures(arm: ClosedFormArm, points: ArrayLike) -> Floats:
     for i in np.flatnonzero(~np.isnan(alpha)):
         alpha[i] = before = before if free[i] else float(wrapped(alpha[i], before))
     gamma = np.where(gamma < -90 * deg, gamma + 360 * deg, gamma)
-    # In a folded arm beta is 0 except for rounding, and could be negative.
+    # In a folded arm, rounding can make beta negative instead of 0.
     return np.stack([alpha, gamma, abs(beta)], axis=-1)
 
 
@@ -72,7 +73,7 @@ def shortest_turn(start: ArrayLike, goal: ArrayLike) -> Floats:
 
 
 def counts(q: ArrayLike, per_degree: ArrayLike) -> Ints:
-    """The motor positions at joint values q (..., n) rad, in the nearest whole pulses (..., n).
+    """The motor positions at joint values q (..., n) rad, rounded to whole pulses (..., n).
 
     per_degree  (n,) or one number: pulses per degree of the joint, including the gear. Source: 003,
                 paper 1, the reduced angle phi of (5).
@@ -114,7 +115,7 @@ class Move(Sealed):
         if t.ndim != 1 or not t.size or t[0] != 0 or (np.diff(t) <= 0).any():
             raise ValueError(f"t: wanted times that increase from 0, got {short(t.tolist())}")
         if positions.ndim != 2 or len(positions) != len(t) or not positions.size:
-            raise ValueError(f"positions: wanted ({len(t)}, motors), got {positions.shape}")
+            raise ValueError(f"positions: wanted shape ({len(t)}, motors), got {positions.shape}")
         _whole(_counted(positions, "positions")[[0, -1]], "first and last of positions")
         object.__setattr__(self, "t", frozen(t))
         object.__setattr__(self, "positions", frozen(positions))
@@ -272,7 +273,8 @@ def _pulses(q: Floats, per_degree: ArrayLike) -> Floats:
     per_degree = _per_degree(per_degree)
     broadcast("q and per_degree", q.shape, per_degree.shape)
     with np.errstate(over="ignore", invalid="ignore"):
-        return np.multiply(q, per_degree / deg, order="F")  # contiguous for each motor
+        # the values of each motor are contiguous in memory
+        return np.multiply(q, per_degree / deg, order="F")
 
 
 def _counted(positions: Floats, name: str) -> Floats:
@@ -305,7 +307,7 @@ def _train(t: Floats, due: Floats) -> tuple[Floats, Ints]:
     times, signs, stands = [np.empty(0)], [np.empty(0, dtype=np.int64)], due[0]
     direction = np.sign(np.diff(due))
     turning = direction.nonzero()[0]
-    # the stretches at whose beginning the motor reverses
+    # the stretches that begin with a reversal of the motor
     turning = turning[1:][direction[turning[1:]] != direction[turning[:-1]]]
     ends = [*turning, len(due) - 1]
     for begin, end in zip([0, *turning], ends, strict=True):

@@ -72,7 +72,7 @@ def energised(table: ArrayLike, signs: ArrayLike, row: int = 0) -> Ints:
     if rows.ndim != 2 or not len(rows):
         raise ValueError(f"table: wanted rows as `phases` returns them, got shape {rows.shape}")
     if signs.ndim != 1 or (abs(signs) != 1).any():
-        raise ValueError(f"signs: wanted +1 and -1 in an array (pulses,), got {short(signs)}")
+        raise ValueError(f"signs: wanted an array (pulses,) of +1 and -1, got {short(signs)}")
     steps = np.concatenate([[0], np.cumsum(signs)]).astype(np.int64)
     return np.asarray(table)[(whole(row, "row", -COUNTED, COUNTED) + steps) % len(rows)]
 

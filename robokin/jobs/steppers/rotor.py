@@ -13,7 +13,8 @@ from .phase_table import DRIVES, energised, phases, read_windings
 ROTORS = ("active", "passive")
 SETTLED = 8.0  # time constants after which a rotor is at rest
 NEARLY = 3.0  # time constants until a current is within 5 % of its final value
-FINE = (0.1, 0.25)  # integration step, as a fraction of the shortest mechanical time and of `rise`
+# integration step, as fractions of the shortest mechanical time constant and of `rise`
+FINE = (0.1, 0.25)
 INTEGRATED = 100_000  # greatest number of steps of one run
 FASTEST = 1e9  # rad/s: the greatest speed that a load or torque may cause
 SLOWEST = 10  # pulses per second: the search for a start frequency begins here
@@ -80,8 +81,8 @@ class Stepper(Sealed):
 
     @property
     def pulls(self) -> np.ndarray[tuple[int, ...], np.dtype[np.complex128]]:
-        """(rows,) complex: the direction in the ring and the strength of each row's pull (1: one
-        winding).
+        """The pull of each row as a complex number, (rows,): its direction in the ring of windings
+        and its strength (1: one winding).
         """
         turn = (math.pi if self.motor == "bipolar" else 2 * math.pi) / self.windings
         currents = self.currents if self.rotor == "active" else self.currents**2
@@ -127,7 +128,8 @@ class Stepper(Sealed):
         """
         count = whole(pulses, "pulses", 1, INTEGRATED)
         low, high = SLOWEST - 1, int(LIMIT) + 1
-        while high - low > 1:  # no steps lost at `low` (or too slow to try), some lost at `high`
+        # the motor loses no steps at `low` (or `low` is too slow to try), and some at `high`
+        while high - low > 1:
             middle = (low + high) // 2
             times = np.arange(1, count + 1) / middle
             lost = self.run(times, np.ones(count), load, load_inertia).lost
@@ -140,8 +142,8 @@ class Stepper(Sealed):
         """Simulate the rotor: it rests in the table's first row, receives the pulses, and comes to
         rest again.
 
-        times, signs  (pulses,) as `Move.pulses` returns them: s, from 0 on, never decreasing, and
-                      +1 or -1
+        times, signs  (pulses,) as `Move.pulses` returns them: times in s, from 0 on and never
+                      decreasing, and +1 or -1
         load          N m, like a weight on a drum: it always pulls backwards
         load_inertia  kg m^2, in addition to the rotor's
 
@@ -179,7 +181,8 @@ def ramp(pulses: int, start: float, end: float, seconds: float) -> Floats:
     before it reaches `end`.
 
     Frequencies are in pulses per second; with `seconds` 0 it is `end` from the beginning. Pulse k
-    comes when k pulses are due, the last one at the end; with start = end as in `Move.pulses`.
+    comes when k pulses are due, so the last one comes at the end of the move. With equal `start`
+    and `end` the times are those that `Move.pulses` returns at a constant frequency.
     """
     count = whole(pulses, "pulses", 1, INTEGRATED)
     low, high = (
@@ -193,10 +196,10 @@ def ramp(pulses: int, start: float, end: float, seconds: float) -> Floats:
     low = low if more else high
     top = min(high, math.sqrt(low**2 + more * count))
     up = (top - low) / more if more else 0.0
-    done = (low + top) / 2 * up  # pulses in the ramp
+    done = (low + top) / 2 * up  # number of pulses in one ramp
     duration = 2 * up + (count - 2 * done) / top
     k = np.arange(1, count + 1)
-    ahead = np.minimum(k, count - k)  # counted from the start, or from the end
+    ahead = np.minimum(k, count - k)  # number of pulses from the nearer end of the move
     with np.errstate(divide="ignore", invalid="ignore"):
         climbing = 2 * ahead / (low + np.sqrt(low**2 + 2 * more * ahead))
     since = np.where(ahead < done, climbing, up + (ahead - done) / top)
@@ -220,7 +223,7 @@ def _loaded(load: float, load_inertia: float) -> tuple[float, float]:
 def _rotor_run(
     motor: Stepper, times: Floats, rows: Ints, signs: Floats, load: float, load_inertia: float
 ) -> RotorMotion:
-    """The simulation, without argument checks."""
+    """`Stepper.run` without argument checks."""
     table, periods = motor.currents.tolist(), motor.periods
     sharp = 1 if motor.rotor == "active" else 2
     turn = (math.pi if motor.motor == "bipolar" else 2 * math.pi) / motor.windings

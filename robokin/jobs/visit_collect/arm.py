@@ -29,10 +29,10 @@ def workspace(l1: float, l2: float, points: ArrayLike) -> Bools:
     l1, l2 = _links(l1, l2)
     x, y, z = components(floats(points, "points", 3))
     slack = ROUNDING * (l1 + l2)
-    with np.errstate(over="ignore"):  # no warning for a point 1e308 m away
+    with np.errstate(over="ignore"):  # a point 1e308 m away must not cause a warning
         rho = np.hypot(x, y)
         d = np.hypot(rho, z)
-        # The lowest elbow is on the floor behind the axis, l1 away: (rho + l1)^2 + z^2 >= l2^2,
+        # The lowest elbow allowed is on the floor, l1 behind the axis: (rho + l1)^2 + z^2 >= l2^2,
         # which is the document's last inequality with its terms reordered.
         from_elbow = np.hypot(rho + l1, z)
     inner_sphere = (d >= l1 - l2 - slack) | (l1 <= l2)
@@ -41,7 +41,7 @@ def workspace(l1: float, l2: float, points: ArrayLike) -> Bools:
 
 
 def out_of_workspace(l1: float, l2: float, point: ArrayLike) -> list[str]:
-    """Why a point (3,) is outside the workspace: a list of reasons in words; empty inside it."""
+    """The reasons why a point (3,) is outside the workspace: a list of strings, empty inside it."""
     l1, l2 = _links(l1, l2)
     p = floats(point, "point", 3)
     if p.ndim != 1:
@@ -60,10 +60,11 @@ def principal_postures(l1: float, l2: float, points: ArrayLike) -> Floats:
     well (S0-k).
     """
     l1, l2 = _links(l1, l2)
-    # -0.0 becomes 0: atan2 distinguishes them, a point does not
+    # -0.0 becomes 0, since atan2 distinguishes the two although they are the same coordinate
     p = floats(points, "points", 3) + 0.0
     near = FREE * (l1 + l2)
-    with np.errstate(over="ignore", invalid="ignore"):  # as in `workspace`, without a warning
+    # as in `workspace`, distant points must not cause a warning
+    with np.errstate(over="ignore", invalid="ignore"):
         q = np.array(spbu_arm(l1, l2).ik(p)[..., 0, :])
         rho = np.hypot(p[..., 0], p[..., 1])
         q[rho <= near, 0] = np.nan
@@ -128,8 +129,8 @@ def lowest(l1: float, l2: float, q_from: ArrayLike, q_to: ArrayLike) -> Floats:
     broadcast("q_from and q_to", start.shape, end.shape)
     for q, name in ((start, "q_from"), (end, "q_to")):
         if (abs(q) > TWO_TURNS).any():
-            greatest = np.nanmax(abs(q))
-            raise ValueError(f"{name}: wanted joints within two turns, got {greatest:.6g} rad")
+            got = f"{np.nanmax(abs(q)):.6g} rad"
+            raise ValueError(f"{name}: wanted joint values within two turns, got {got}")
     return lowest_place(l1, l2, start, end, np.inf)
 
 
@@ -168,7 +169,9 @@ def lowest_place(l1: float, l2: float, start: Floats, end: Floats, below: float)
 
 
 def reasons_outside(l1: float, l2: float, point: Floats) -> tuple[str, ...]:
-    """The reasons why a point (3,) may be outside, one string for each of the four conditions."""
+    """The reasons why a point (3,) may be outside the workspace, one string for each of the four
+    conditions.
+    """
     x, y, z = point.tolist()
     rho, d = math.hypot(x, y), math.hypot(x, y, z)
     return (

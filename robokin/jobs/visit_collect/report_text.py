@@ -1,4 +1,4 @@
-"""The result in words, with warnings."""
+"""The report on a result, with warnings."""
 
 import numpy as np
 
@@ -13,9 +13,9 @@ POINTS_SHOWN = 1_000
 
 
 def report(task: Task, result: Result) -> str:
-    """The result in words, one line for each point served: its index in pi, its coordinates, its
-    time. Then warnings: moves on which the tool dips below the floor, an order that may not be the
-    best, oddities of the file. At most POINTS_SHOWN lines of points, and FAULTS_SHOWN of moves.
+    """The result as text, with a line for each point served: its index in pi, its coordinates, its
+    time. Warnings follow: moves on which the tool dips below the floor, an order that may not be
+    the best, oddities of the file. At most POINTS_SHOWN lines of points, and FAULTS_SHOWN of moves.
     ValueError: a result of another task.
     """
     stops = stops_of(task, result)
@@ -50,7 +50,7 @@ def report(task: Task, result: Result) -> str:
 
 
 def _low_moves(task: Task, result: Result, q: Floats) -> list[str]:
-    """The moves between stops q (k, 3) that dip below the floor, in words."""
+    """Warnings on moves between stops q (k, 3) that dip below the floor."""
     if task.kind == "collect":  # from p0 to each point and back
         names = [f"between p0 and pi[{i}]" for i in result.order]
         start, end = q[:-1:2], q[1::2]
@@ -69,7 +69,7 @@ def _low_moves(task: Task, result: Result, q: Floats) -> list[str]:
 
 
 def _oddities(task: Task) -> list[str]:
-    """Other facts that a reader should know, in words."""
+    """Other warnings that a reader should see."""
     found = []
     if task.kind == "collect" and np.isnan(task.q[0]).any() and len(task.points) > 1:
         found.append(

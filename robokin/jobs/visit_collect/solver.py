@@ -13,9 +13,12 @@ from .arm import UNDER, joint_travel_time, lowest_place, with_free_joints
 from .task import Task, TaskError
 
 # These limits keep every call to a few seconds:
-EXACT_LIMIT = 16  # points; each additional point doubles the time and memory of the exact optimum
-NEAREST_LIMIT = 10_000  # points; the repeated search for the nearest compares n^2 / 2 moves
-ABOVE_LIMIT = 1_000  # points, if the lowest place of each of these moves is needed too
+# greatest number of points; each additional one doubles the time and memory of the exact optimum
+EXACT_LIMIT = 16
+# greatest number of points; repeatedly finding the nearest of n points compares n^2 / 2 moves
+NEAREST_LIMIT = 10_000
+# greatest number of points if the lowest place of each of these moves is computed too
+ABOVE_LIMIT = 1_000
 
 
 @dataclass(frozen=True)
@@ -42,7 +45,8 @@ class Result(Sealed):
         return self.times[-1] if self.times else 0.0
 
 
-@np.errstate(over="ignore")  # here and below: at 1e-308 rad/s a time is infinite, and exceeds T
+# here and below: at 1e-308 rad/s a time overflows to infinity, so it exceeds T
+@np.errstate(over="ignore")
 def collect(task: Task, *, short_way: bool = False, above_floor: bool = False) -> Result:
     """Bring as many points as possible to p0, one at a time, within T.
 
@@ -84,8 +88,8 @@ def visit(task: Task, *, short_way: bool = False, above_floor: bool = False) -> 
 @np.errstate(over="ignore")
 def best_visit(task: Task, *, short_way: bool = False, above_floor: bool = False) -> Result:
     """The best visit: the most points within T, then the least time, then the lexicographically
-    first order. Times that differ only by rounding (1e-12) count as equal. It is not in the
-    document.
+    first order. Times that differ only by rounding (1e-12) count as equal. The document does not
+    have this method.
 
     It is exact, by dynamic programming over the sets of visited points. ValueError: more than
     EXACT_LIMIT points, since each additional point doubles the work. `above_floor` is as in
@@ -104,8 +108,8 @@ def best_visit(task: Task, *, short_way: bool = False, above_floor: bool = False
 
     # A set of points is a number with one bit per point. least[here, visited]: the least time to
     # visit this set and end in this posture. path: the order with that time, its points as the
-    # digits of a number in base 16, so that of two orders of a set the lexicographically first is
-    # the smaller number.
+    # digits of a number in base 16, so that the lexicographically first of two orders is the
+    # smaller number.
     sets = np.arange(2**n)
     size = np.bitwise_count(sets)
     least = np.full((len(q), 2**n), np.inf)

@@ -18,13 +18,13 @@ from .arm import LONGEST, SHORTEST, misfit, principal_postures, reasons_outside,
 KEYS = ("L1", "L2", "T", "q'", "p0", "pi", "task")
 # These limits keep every call to a few seconds:
 TASK_LIMIT = 300_000  # greatest number of points in a task
-FILE_LIMIT = 40_000_000  # bytes in a file
+FILE_LIMIT = 40_000_000  # greatest number of bytes in a file
 # These limits keep messages readable:
 FAULTS_SHOWN = 10  # greatest number of faults of one kind that are listed
 
 
 class TaskError(ValueError):
-    """A task cannot be solved; `faults` holds all reasons, one string each."""
+    """Raised for a task that cannot be solved; `faults` holds all reasons, one string each."""
 
     def __init__(self, faults: Iterable[str]) -> None:
         self.faults = tuple(faults)
@@ -34,9 +34,9 @@ class TaskError(ValueError):
 @dataclass(frozen=True, eq=False, init=False)
 class Task(Sealed):
     """A checked, read-only task: links l1, l2 (m), time T (s), greatest joint speeds (3,) in rad/s,
-    start p0 (3,) and points (n, 3) in metres, kind "visit" or "collect". `remarks` are oddities of
-    its file, in words, for the report. `q` (1 + n, 3) are the `principal_postures` of p0 and of the
-    points.
+    start p0 (3,) and points (n, 3) in metres, kind "visit" or "collect". `remarks` are sentences on
+    oddities of its file, for the report. `q` (1 + n, 3) are the `principal_postures` of p0 and of
+    the points.
 
     TaskError: it lists all faults, see `faults`.
 
@@ -140,7 +140,7 @@ def and_more(count: int, shown: int, template: str) -> str:
 
 
 def coordinates(point: Floats) -> str:
-    """A point (3,) in words, with the precision of a report."""
+    """A point (3,) as text, with the precision of a report."""
     return f"({', '.join(f'{x:.12g}' for x in point)})"
 
 
@@ -184,7 +184,7 @@ def _unreachable(l1: float, l2: float, numbers: Sequence[int], p: Floats) -> lis
 
 
 def _parsed(path: str | os.PathLike[str]) -> tuple[Any, Counter[str]]:
-    """Return the content of a JSON file, and how often its outermost object gives each key.
+    """Return the content of a JSON file, and how often its outermost object contains each key.
     TaskError: the file cannot be read.
     """
     if not isinstance(path, (str, os.PathLike)):
@@ -242,7 +242,7 @@ def _triple(value: Any) -> bool:
     return isinstance(value, list) and len(value) == 3 and all(map(_number, value))
 
 
-# key -> its check, and the wanted value in words
+# key -> its check, and a description of the wanted value
 RULES: dict[str, tuple[Callable[[Any], bool], str]] = {
     **dict.fromkeys(
         ("L1", "L2"),
@@ -266,7 +266,7 @@ RULES: dict[str, tuple[Callable[[Any], bool], str]] = {
 
 
 def _plain(value: Any, depth: int = 2) -> Any:
-    """Convert arrays and tuples, as a lesson gives them, to lists as in a file. Values that are
+    """Convert arrays and tuples, as a lesson passes them, to lists as in a file. Values that are
     too large or not numbers are unchanged; `faults` refuses them.
     """
     if isinstance(value, (np.ndarray, np.generic)):
