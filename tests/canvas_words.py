@@ -1,10 +1,10 @@
-"""What is written on the canvases of a page: a script that records it, and its faults."""
+"""The text on the canvases of a page: a script that records it, and a check that finds faults."""
 
 import re
 from dataclasses import dataclass
 
-# For each canvas the words since it was last cleared: text, size in CSS px, colour, box in the
-# page, the mean colour of the pixels below, and whether an outline was drawn first.
+# The text drawn on each canvas since it was last cleared: its string, size in CSS px, colour, box
+# on the page, the mean colour of the pixels below, and whether an outline was drawn first.
 RECORD = """
 (() => {
   const words = new WeakMap(), outlined = new WeakMap();
@@ -54,12 +54,12 @@ RECORD = """
 })();
 """
 SIZE, CONTRAST = 10, 4.5
-OVERLAP = 1.5  # px by which two boxes may reach into each other
+OVERLAP = 1.5  # px by which two boxes may overlap
 
 
 @dataclass
 class Fault:
-    """A text that cannot be read, and why."""
+    """Unreadable text on a canvas, and the reason."""
 
     text: str
     why: str
@@ -67,7 +67,7 @@ class Fault:
 
 
 def faults(page):
-    """The faults of all words on the visible canvases of a page."""
+    """The faults of all text on the visible canvases of a page."""
     found = []
     for canvas in page.evaluate("canvasWords()"):
         paper = rgb(canvas["paper"])
@@ -95,7 +95,7 @@ def faults(page):
 
 
 def reach(one, other):
-    """How far two boxes reach into each other, in px; negative if they are apart."""
+    """The overlap of two boxes in px; negative if they do not overlap."""
     (x, y, w, h), (u, v, a, b) = one, other
     return min(min(x + w, u + a) - max(x, u), min(y + h, v + b) - max(y, v))
 

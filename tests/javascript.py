@@ -32,7 +32,7 @@ UNREACHABLE = ("ENOTFOUND", "EAI_AGAIN", "ECONNREFUSED", "ECONNRESET", "ENETUNRE
 
 
 class NoNetwork(Exception):
-    """The tools are missing, and the registry cannot be reached."""
+    """Raised if the tools are missing and the registry cannot be reached."""
 
 
 def tools():

@@ -32,13 +32,13 @@ class Size(NamedTuple):
 
     @property
     def reading(self) -> float:
-        """Minutes without the exercises."""
+        """The time in minutes without the exercises."""
         return self.minutes - 12 * self.exercises
 
 
 MOST = Size(words=1800, cells=18, lines=200, sections=8, predictions=10, exercises=3)
 MINUTES, READING = 90, 60
-START = "00_start_here"  # read in ten minutes
+START = "00_start_here"  # a lab that takes ten minutes
 
 
 def measure(path: Path) -> Size:

@@ -59,7 +59,7 @@ class Cell:
             reads, writes = _globals(compile(ast.Module([statement], []), "cell", "exec"))
             self.reads |= reads - sure
             self.writes |= writes
-            sure |= writes if isinstance(statement, SETS) else set()  # other statements may not run
+            sure |= writes if isinstance(statement, SETS) else set()  # others do not always run
         for node in ast.walk(tree):
             if isinstance(node, ast.Attribute) or (
                 isinstance(node, ast.Subscript) and isinstance(node.ctx, ast.Store)
@@ -152,7 +152,7 @@ class Run:
 
 class Shown:
     """The output of a cell: its printed text and the text of its result; for a figure or a player
-    also the words in it and what is drawn.
+    also its text and what is drawn.
     """
 
     def __init__(self, printed: str, value) -> None:
@@ -241,7 +241,7 @@ def _told(lab: Run, shown: list["Shown"], name: str, report) -> list[str]:
 
 
 def _forked(lab: Run, k: int, source: str):
-    """The figures that the changed cell k and the cells it reaches show, or an error message."""
+    """The figures of the changed cell k and the cells that depend on it, or an error message."""
     read, write = os.pipe()
     child = os.fork()
     if child == 0:

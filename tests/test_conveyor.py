@@ -58,7 +58,7 @@ def test_spread_is_the_largest_relative_deviation_of_a_gap(spread, seed):
     deviation = spread / sqrt(3) * GAP * sqrt((COUNT + 1) / (COUNT - 1))
     assert gaps.std() == pytest.approx(deviation, rel=1e-9)
     order = np.argsort(np.argsort(gaps))
-    assert abs(np.corrcoef(order[1:], order[:-1])[0, 1]) < 0.2  # no gap predicts the next
+    assert abs(np.corrcoef(order[1:], order[:-1])[0, 1]) < 0.2  # no gap predicts the next one
     steady = np.diff(spaced(COUNT, GAP, 0.1, seed=seed), prepend=0)
     assert (np.argsort(np.argsort(steady)) == order).all()
 
@@ -91,7 +91,7 @@ def seconds(point):
 def test_objects_are_picked_inside_the_window_of_their_arm(line):
     offsets, v, pitch, trips, _ = line
     for k, one in enumerate(trips):
-        y = WINDOW[0] - offsets[one.objects] + v * one.meets  # the belt has carried them here
+        y = WINDOW[0] - offsets[one.objects] + v * one.meets  # carried there by the belt
         assert (y >= WINDOW[0] + k * pitch - 1e-9).all()
         assert (y <= WINDOW[-1] + k * pitch + 1e-9).all()
         assert np.allclose(y - k * pitch, WINDOW[one.places], rtol=0, atol=1e-9)
@@ -156,7 +156,7 @@ def test_greedy_rule_matches_a_simple_program(line):
             free = meet + WAYS[j]
             left.remove(i)
         last = (offsets[left] + k * pitch + WINDOW[:, None] - WINDOW[0]) / v - WAYS[:, None]
-        assert (last < free).all()  # the arm stops only when it can reach none of the rest
+        assert (last < free).all()  # the arm stops only when it can reach no other object
 
 
 def test_arm_with_one_place_picks_every_kth_evenly_spaced_object():
@@ -213,11 +213,11 @@ def test_number_of_arms_respects_the_lower_bound():
             == COUNT
         )
         assert count >= floor(2 * WAYS.min() * v * mm / GAP) + 1
-        assert spread or count == 3  # with equal gaps, the rounded-up bound is enough here
+        assert spread or count == 3  # equal gaps need only the rounded-up bound here
 
 
 def test_uneven_spacing_loses_objects():
-    """At 120 mm/s one arm takes all evenly spaced objects, and fewer the more the gaps differ."""
+    """At 120 mm/s one arm takes all evenly spaced objects, and fewer if the gaps differ more."""
     lost = [
         np.mean(
             [

@@ -205,7 +205,7 @@ class History:
         assert not [o for o in copy(self.folder, self.source) if o.what in ("new", "replaced")]
         assert self.files(hidden=True) == before, "a copy without newer labs changed something"
 
-    # Actions of the teacher
+    # Teacher actions
 
     def newer(self):
         self._lab(self.random.choice(self.labs()))
@@ -235,7 +235,7 @@ class History:
             self.versions.setdefault(new, []).append((self.source / path).read_bytes())
             os.replace(self.source / path, self.source / new)
 
-    # Actions of the student
+    # Student actions
 
     def edit(self):
         path = self._pick(".ipynb")
@@ -375,7 +375,7 @@ class History:
             same = laid_before[path] == {says}
             here = after.get(path)
             sides = self._sides(path, after)
-            if path in self.untouched:  # even one that an interrupted copy has moved
+            if path in self.untouched:  # even if an interrupted copy has moved it
                 assert here and said(path, here) == says, f"{path}: unchanged, but not the newest"
                 if self.outputs.get(path) not in (None, newest):
                     assert path.endswith(".json") or json.loads(here) == laid(newest)
@@ -495,7 +495,7 @@ class History:
                 if self._plain(place) and not mine and said(path, files[place]) == says:
                     self.untouched.add(place)
 
-    # Conditions that must always be true
+    # Invariants
 
     def look(self):
         """Assert that none of the student's work is lost and that no valid notebook is broken."""
@@ -729,7 +729,7 @@ def test_outcomes_match_the_files(school, capsys):
     ]
     assert school.says("one.ipynb") == "# mine" and school.says("tasks/task.json") == "first"
     assert school.says("one.new.ipynb") == "# one.ipynb second"
-    # once changed, a newer lab next to it belongs to the student, too; otherwise it is replaced
+    # the newer lab next to it is replaced, unless the student has changed that one, too
     for says, beside in (("third", "one.new.ipynb"), ("fourth", "one.new2.ipynb")):
         school.newer("one.ipynb", says)
         assert school.copy() == {"one.ipynb": "kept", "tasks/task.json": "gone"}
@@ -932,7 +932,7 @@ def test_unusable_folders_are_refused_with_a_reason(school, tmp_path, capsys, mo
     def makedirs(path, **_):
         raise PermissionError(13, "Permission denied", str(path))
 
-    monkeypatch.setattr(os, "makedirs", makedirs)  # root may write anywhere
+    monkeypatch.setattr(os, "makedirs", makedirs)  # root can write anywhere
     assert "Permission denied" in refused(tmp_path / "new", school.labs)
 
 

@@ -301,7 +301,7 @@ def test_interrupt_by_the_user_is_passed_on():
         while True:
             height += 1
 
-    for _ in range(30):  # wherever the interrupt reaches the caller
+    for _ in range(30):  # an interrupt can reach the caller anywhere
         with pytest.raises(KeyboardInterrupt):
             check("made.1", interrupted)
         until(lambda: _thread._count() == before, "a thread is left")
@@ -313,7 +313,7 @@ def test_interrupt_by_the_user_is_passed_on():
 
 
 def test_time_limit_stops_the_answer_and_not_the_caller(monkeypatch):
-    """This is true even if a busy machine uses up the time before the caller continues."""
+    """The caller survives even if a busy machine uses up the time before the caller continues."""
     monkeypatch.setattr(answers, "SECONDS", 0.01)
     start = _thread.start_new_thread
 
@@ -399,7 +399,7 @@ def test_time_limit_leaves_no_thread_behind(monkeypatch):
         assert outcome.name in (None, "never ends") and sys.stdout is out
         told.add(outcome.name)
         assert sum(range(1000)) == 499500
-    assert None in told  # how many of the others are stopped depends on the machine
+    assert None in told  # how many answers are stopped depends on the machine
     for answer in (loops, stubborn):
         assert answers.run(answer, [(0, 1)] * 3) == [answers.NEVER]
     time.sleep(0.05)
@@ -730,7 +730,7 @@ def test_error_in_the_test_itself_is_reported():
 
 
 def test_test_that_counts_its_calls_does_not_pass(monkeypatch):
-    """Such a test is correct only by chance, so it is tried repeatedly."""
+    """A test that counts its calls is correct only by chance, so it is tried repeatedly."""
     held, told = 0, set()
     for seed in range(200):
         dice = random.Random(seed)

@@ -194,7 +194,7 @@ def test_individual_tasks_differ():
     assert len({repr(variant("irb140_kinematics", k)) for k in range(50)}) > 45
 
 
-def test_first_guesses_fail_for_every_student():
+def test_obvious_designs_fail_for_every_student():
     for k in range(20):
         task_1 = {"height": 0.5, "flags": (1, 1, 1), "duration": 20}
         assert check(DESIGN, task_1, who=k).mistake.startswith("past a limit: joint")
@@ -326,10 +326,10 @@ def test_p9_agrees_with_the_law_of_cosines():
     facts = LAB.predictions["p9"].facts()
     assert facts["obtuse"] == pytest.approx(angle / deg)
     assert facts["acute"] == pytest.approx(180 - angle / deg)
-    # the whole triangle turns, so the chord of the wrist centre, d from the shoulder, is d / b long
+    # the whole triangle turns about the shoulder: the wrist centre moves d / b times as far
     assert facts["miss"] == pytest.approx(chord * d / b / mm)
 
 
-def test_p10_agrees_with_a_count():
+def test_p10_agrees_with_a_direct_count():
     assert [q for q in range(-400, 401) if (q - 30) % 360 == 0] == [-330, 30, 390]
     assert key("p10") == 2

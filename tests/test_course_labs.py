@@ -26,7 +26,7 @@ KINDS = {e: type(book.find(e, "exercises")) for e in EXERCISES}
 FUNCTIONS = [e for e in EXERCISES if KINDS[e] is Function]
 CATCHES = [e for e in EXERCISES if KINDS[e] is Catch]
 every_lab = pytest.mark.parametrize("lab", book.labs())
-SMALL = "start_here"  # a lab of ten minutes, with one exercise and one prediction
+SMALL = "start_here"  # a ten-minute lab with one exercise and one prediction
 
 
 def cells(lab):
@@ -155,7 +155,7 @@ def of_the_solution(name):
 
 @pytest.mark.parametrize("name", CATCHES)
 def test_no_test_passes_by_a_trick(name, monkeypatch):
-    """The tricks are counting calls, ignoring errors, returning nothing and saying only yes."""
+    """The tricks: counting calls, ignoring errors, returning nothing, never returning False."""
     right = of_the_solution(name)
     exercise = book.find(name, "exercises")
     many = len(exercise.rights) + len(exercise.wrongs) + 1

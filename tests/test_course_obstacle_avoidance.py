@@ -172,8 +172,8 @@ def test_path_of_strings_is_refused_and_different_numbers_print_differently():
 
 @cache
 def _tasks(count, turn, gap):
-    """(path, H, distance, whether the path keeps it); the distance differs from the least one by
-    `gap`.
+    """(path, H, distance, whether the path keeps it); the distance differs by `gap` from the
+    smallest distance between path and H.
     """
     rng, made = np.random.default_rng(2), []
     while len(made) < count:
@@ -194,7 +194,7 @@ def _tasks(count, turn, gap):
     "turn, gap, mistake",
     [(80, 0.004, "refuses a correct program"), (170, 0.03, "refuses a correct program")],
 )
-def test_test_that_asks_more_than_promised_is_named(turn, gap, mistake):
+def test_test_that_demands_more_than_promised_is_named(turn, gap, mistake):
     def strict(safe):
         return all(bool(safe(path, H, d)) == truth for path, H, d, truth in _tasks(60, turn, gap))
 

@@ -127,7 +127,7 @@ def test_mistakes_in_speeds_are_named(answer, mistake):
     ],
 )
 def test_durations_get_the_expected_verdict(change, mistake):
-    # near 1 rad/s a joint speed cannot be distinguished from a duration
+    # if the greatest speed is near 1 rad/s, multiplying by it hardly changes the duration
     who = next(name for name in map(str, range(99)) if abs(lab.given(name)["fastest"] - 1) > 0.3)
     numbers = lab.given(who)
     least = judged_line(numbers).least(numbers["fastest"])

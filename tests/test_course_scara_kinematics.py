@@ -76,7 +76,7 @@ def test_mistakes_in_elbows_are_named(answer, name):
     assert name is None or name in (verdict.mistake or ""), verdict
 
 
-def test_unknown_mistake_is_refused_without_a_name():
+def test_unknown_mistake_is_refused_but_not_named():
     verdict = check("scara_kinematics.1", lambda q: q * np.array([0.3, -1.1, 0.9, 1]))
     assert not verdict.holds and verdict.mistake is None
 
@@ -148,7 +148,7 @@ def test_task_matches_the_circle_in_the_lab():
 # --- Exercise 3: a test for limits ----------------------------------------------------------------
 
 
-def test_correct_and_wrong_programs_match_their_names():
+def test_correct_programs_detect_every_value_past_a_limit():
     rng = np.random.default_rng(4)
     limits = SCARA.limits
     q = rng.uniform(*limits.T, (40, 4))

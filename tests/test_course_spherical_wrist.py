@@ -117,7 +117,7 @@ def _of_length_five(*case):
         (_of_length_five, "the direction is not a unit vector"),
     ],
 )
-def test_vectors_that_are_not_directions_are_named(answer, name):
+def test_vectors_that_are_not_unit_vectors_are_reported(answer, name):
     verdict = check("spherical_wrist.1", answer)
     assert verdict.mistake == name and "not a unit vector" in verdict.case
 
@@ -153,7 +153,7 @@ def _judges(angles, exact):
     return test
 
 
-def test_programs_match_their_names():
+def test_only_certain_wrong_programs_pass_at_regular_angles():
     for angles in ([0.3, 1.0, 3.0], [0, np.pi], [1e-9, 1e-7, 1e-5, np.pi - 1e-7]):
         judge = _judges(angles, 1e-10)
         assert all(judge(program) for program in RIGHTS)
@@ -307,7 +307,7 @@ def test_every_line_is_feasible_but_not_with_a_level_tool(who):
     verdict = check("spherical_wrist.3", line | {"up": side, "side": up}, who=who)
     if passage(n, -side, -up)[0] >= n["least_distance"]:
         assert "With up and side exchanged it would do" in verdict.says[0]
-    elif 50 > abs(n["slope"]) / deg > 40:  # the two tilts nearly coincide
+    elif 50 > abs(n["slope"]) / deg > 40:  # up and side have nearly the same size
         assert verdict.holds or verdict.mistake in ("tilted to the wrong side", "too fast")
     elif not verdict.holds and verdict.mistake not in ("too fast", "too slow"):
         assert verdict.mistake in ("up and side exchanged", "tilted along the line", "out of reach")

@@ -76,7 +76,7 @@ def test_one_miss_of_three_costs_a_third():
     assert check("start_here.1", np.array([40, -20, -10, 0, 30, 0]) * deg).points == 0.33
 
 
-def test_missing_posture_is_not_answered():
+def test_missing_posture_counts_as_unanswered():
     for answer in (..., None):
         assert not check("start_here.1", answer).answered
     assert "45" in solution("start_here.1")

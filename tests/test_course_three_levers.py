@@ -75,7 +75,7 @@ def angle_between(a, b, c):
 
 
 def of_the_lab(K, alpha, lengths):
-    """The lab's formulas, including its clip, with OB in place of L."""
+    """The lab's formulas, including np.clip, with OB in place of L."""
     L, KO = lengths[0], np.hypot(*K)
     KB = 2 * L * np.sin(alpha / 2)
     gamma = angle_between(KO, L, KB) + np.arctan2(K[1], K[0])
@@ -275,7 +275,7 @@ def first_and_last_angle(program):
 
 
 def test_test_must_start_from_different_postures():
-    """The second check gives the same verdict: programs that keep state are made again for each."""
+    """A second check gives the same verdict: each check makes programs that keep state again."""
     arm, rng = three_lever(1.0), np.random.default_rng(5)
     places = rng.uniform(1.2, 2.8, 100)[:, None] * [np.cos(0.8), np.sin(0.8)]
 

@@ -85,7 +85,7 @@ def test_slips_in_a_short_program_are_named():
         assert not verdict.holds and verdict.mistake in (name, "NaN"), verdict
         assert len(verdict.says) <= 2
         named += verdict.mistake == name
-    assert named >= len(SLIPS) - 6  # NaN for every tip is not explained
+    assert named >= len(SLIPS) - 6  # slips that give NaN for every tip are not explained
 
 
 def test_known_and_nearly_correct_programs_get_their_names():
@@ -120,7 +120,7 @@ def test_known_and_nearly_correct_programs_get_their_names():
         (
             lambda d, a, b: abs(a - b) - 1e-9 <= d <= a + b + 1e-9,
             None,
-        ),  # a tolerance in metres, even for a small arm
+        ),  # an absolute tolerance passes, even for a small arm
     ],
 )
 def test_slightly_wrong_rim_is_detected(reach, name):

@@ -302,7 +302,7 @@ def test_numbers_behind_the_predictions_are_correct():
     assert -1.017 < FACTS["p8"]()["low"] < -1.016
     facts = FACTS["p9"]()
     assert (facts["even"], facts["uneven"]) == (120, 90) and facts["rule"] > facts["even"]
-    assert (facts["least"], facts["greatest"]) == (80, 90)  # for other orders of the same gaps
+    assert (facts["least"], facts["greatest"]) == (80, 90)  # over other orders of the same gaps
     assert facts["first"] == 95
     changes = FACTS["p5"]()
     beaten = ("container on axis 1", "prices", "unlike speeds", "emptied at the end")

@@ -296,7 +296,7 @@ def test_s1_m_speed_jumps_at_the_unblended_corner():
 
     assert abs(jump_of(2e-5) - wanted).max() < 1e-7
     assert abs(jump - wanted).max() < 0.01
-    # The "acceleration" there is this jump divided by the step, so it doubles with half the step.
+    # The "acceleration" there is this jump divided by the step, so halving the step doubles it.
     assert np.allclose(abs(a).max(0), abs(jump) / STEP, rtol=1e-9)
 
 

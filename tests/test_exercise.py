@@ -121,7 +121,7 @@ def test_slip_that_undoes_a_mistake_explains_nothing():
     mistakes = "**mm for m.** It is in mm.\n- `1.0 * x` → `1e-3 * x`"
     mine = exercise(text, lambda rng: [(x,) for x in rng.uniform(0, 10, 20)], mistakes)
     assert check(mine, lambda x: x / 1000 if x < 5000 else np.nan).mistake == "mm for m"
-    verdict = check(mine, lambda x: x)  # this answer has no limit
+    verdict = check(mine, lambda x: x)  # this answer lacks the limit at 5
     assert not verdict.holds and verdict.mistake is None
 
 
@@ -614,7 +614,7 @@ def test_incompatible_pairs_of_mistakes_explain_nothing():
     assert not verdict.holds and verdict.case and "cannot be judged" not in repr(verdict)
 
 
-def test_incomparable_results_are_different():
+def test_incomparable_results_count_as_different():
     mine = exercise("def f(n):\n    return n", lambda rng: [(n,) for n in range(9)])
     mine.alike = lambda a, b: 1 / 0
     mine.code["form"] = lambda result, case: result
@@ -624,7 +624,7 @@ def test_incomparable_results_are_different():
 
 
 def test_changed_solution_names_all_edits_that_no_longer_fit(place):
-    """In an exercise that asks for a test, these are the edits that fit none of its correct
+    """In an exercise that asks for a test, an edit no longer fits if it fits none of the correct
     programs.
     """
     text = altered(("l1**2 + l2**2\n", "l1 * l1 + l2 * l2\n"))

@@ -1,7 +1,7 @@
 """Explorers in a real browser, where they show the values that Python computes, whether moved by
 mouse, finger or keys; and explorers stored in a notebook.
 
-The tests read what a person would see: boxes, tables, words, handles, and the pixels and words on
+The tests read what a person would see: boxes, tables, text, handles, and the pixels and labels on
 canvases. For more digits they run "Copy as Python".
 """
 
@@ -87,7 +87,7 @@ def named(arms):
 
 # --- Opening an explorer and reading what it shows ------------------------------------------------
 
-# Records the words on a canvas since it was last cleared, and the text put on the clipboard.
+# Records the text drawn on a canvas since it was last cleared, and the text put on the clipboard.
 WATCH = """
 const pen = CanvasRenderingContext2D.prototype, {clearRect: wipe, fillText: write} = pen;
 Object.assign(pen, {
@@ -175,7 +175,7 @@ class Open:
 
     def take(self, name):
         """Press the mouse button on a handle, and return its position."""
-        self.handle(name).focus()  # brings it in front of its neighbours
+        self.handle(name).focus()  # brings the handle in front of its neighbours
         x, y = self.look().handles[name]["at"]
         self.page.mouse.move(x, y)
         self.page.mouse.down()
@@ -235,7 +235,7 @@ def watched(page):
 
 
 def tells_the_flange(shown, exact=True):
-    """Check that table, boxes and words agree with `fk` of the posture; return the posture."""
+    """Check that table, boxes and text agree with `fk` of the posture; return the posture."""
     arm, seen = shown.arm, shown.look()
     q = np.array(shown.code(seen)["q"])
     units = [unit["size"] for unit in shown.data["units"]]
@@ -247,7 +247,7 @@ def tells_the_flange(shown, exact=True):
     pose, size = arm.fk(q), shown.data["unit"]["size"]
     values = [[float(re.search(r"-?[\d.]+$", x)[0]) for x in row[1:] if x] for row in seen.rows]
     place, turns, wxyz, near = values
-    slack = 1 if exact else 3  # the code has three decimals
+    slack = 1 if exact else 3  # the copied code has three decimals
     assert np.allclose(np.array(place) * size, pose.translation, atol=0.0505 * slack * size)
     for rotation in (
         Rotation.from_euler("xyz", turns, degrees=True),
@@ -314,7 +314,7 @@ def same(arm, q, rows, atol):
 
 
 def shows_every_branch(shown, exact=True):
-    """Assert that the table, the choice, the words and the picture agree with what Python computes
+    """Assert that the table, the choice, the text and the picture agree with what Python computes
     for the target shown.
     """
     arm, seen = shown.arm, shown.look()
@@ -428,9 +428,9 @@ def test_target_explorer_lists_every_branch(opened, arm):
     assert {"none", "usable"} <= kinds and len(pixels) > 8
 
 
-def test_chosen_branch_stays_and_its_reason_is_shown(opened):
+def test_chosen_branch_is_kept_and_its_gap_is_explained(opened):
     shown = opened(target_explorer(IRB140), IRB140)
-    shown.choose("branch", 7)  # the entry after "nearest" and seven rows
+    shown.choose("branch", 7)  # row 6, since "nearest" comes first
     assert shows_every_branch(shown).seen.chosen == 6
     shown.type("x", 255)
     assert shows_every_branch(shown).seen.chosen == 6
@@ -451,7 +451,7 @@ def test_joint_past_its_limit_is_shown_with_the_least_excess(opened):
     values = dict(zip("xyz", pose.translation / mm, strict=True))
     values |= dict(zip(("roll", "pitch", "yaw"), turns, strict=True))
     tables = []
-    for row in (0, 1, 3, 6):  # from any previous posture
+    for row in (0, 1, 3, 6):  # whatever the previous posture was
         shown.choose("branch", row + 1)
         for name, value in (("x", 300), ("y", 0), ("z", 700), ("roll", 0), ("yaw", 0)):
             shown.type(name, value)
@@ -514,8 +514,8 @@ def test_home_key_on_an_arc_restores_the_first_rotation(opened):
     assert shown.look().boxes == first
 
 
-def test_sliders_change_the_lengths_of_levers(opened):
-    """The arm, the curve and the words follow the three additional sliders, and the Python lines
+def test_sliders_change_the_lever_lengths(opened):
+    """The arm, the curve and the text follow the three additional sliders, and the Python lines
     contain the lengths.
     """
     arm = three_lever((0.9, 1.1, 0.6))
@@ -539,7 +539,7 @@ def test_sliders_change_the_lengths_of_levers(opened):
         told = [float(x) for x in re.findall(r"alpha = ([\d.]+)°: ([\d.]+)°", seen.says)[0]]
         assert np.allclose(told, [least[0][2] / deg, least[1] / deg], atol=0.06)
     assert all(a != b for a, b in zip(seen.pixels, first.pixels, strict=True))
-    shown.type("lever AK", 1.5)  # the border |OB - BA| + AK is now beyond the point
+    shown.type("lever AK", 1.5)  # the point is now inside the border |OB - BA| + AK
     shown.type("lever BA", 0.5)
     assert shown.look().says == "No posture reaches this point."
 
@@ -572,7 +572,7 @@ def greatest(motion, law, fraction, samples):
 
 
 def shows_the_motion(shown, exact=True, held=False):
-    """Assert that table and words agree with the motion in the code; return the motion and the
+    """Assert that table and text agree with the motion in the code; return the motion and the
     state shown. `held`: a handle is still held.
     """
     arm, seen = shown.arm, shown.look()
@@ -597,7 +597,7 @@ def shows_the_motion(shown, exact=True, held=False):
     with np.errstate(all="ignore"):
         recording = record(arm, t, q)
     v, a = recording.v, recording.a
-    if fraction == 0:  # halves are separate, so that no difference crosses the corner
+    if fraction == 0:  # separate halves, so that no difference spans the corner
         half = SAMPLES // 2
         v = np.array(
             [*differentiate(q[: half + 1], t[: half + 1])[:-1], *differentiate(q[half:], t[half:])]
@@ -718,7 +718,7 @@ def test_motion_plays_to_its_end_and_keeps_its_numbers(opened):
     after = shown.look()
     assert after.rows == before.rows and after.code == before.code
     assert after.pixels[0] != before.pixels[0]
-    shown.type("duration", 4)  # the clock keeps its share of the motion
+    shown.type("duration", 4)  # the clock stays at the same fraction of the motion
     assert shown.look().told["time"] == "4.00 s"
 
 
@@ -799,7 +799,7 @@ def test_target_follows_the_pointer_along_arrows_and_arcs(opened, arm):
         shown.press(name, "ArrowRight")
         after = shown.code()["target"]
         shown.press(name, "Home")
-        if arm is IRB140:  # the axes are those of the target
+        if arm is IRB140:  # its handles move along the target's own axes
             move = before.inverse() @ after
             angle, axis = move.rotation.as_angle_axis()
             way = np.eye(3)["xyz".index(name[-1])]
@@ -1237,7 +1237,7 @@ def test_thousands_of_moves_do_not_leak_memory(opened, kind):
       go();
     })"""
     start = shown.look()
-    for moves in (100, 1000, 1000, 1000):  # the first ones warm up
+    for moves in (100, 1000, 1000, 1000):  # the first 100 are a warm-up
         shown.take(name)
         shown.handle(name).evaluate(walk, moves)
         shown.page.mouse.up()
@@ -1251,7 +1251,7 @@ def test_thousands_of_moves_do_not_leak_memory(opened, kind):
 def _heap(page):
     """Megabytes of JavaScript in use after garbage collection."""
     session = page.context.new_cdp_session(page)
-    for _ in range(3):  # freed objects may free others
+    for _ in range(3):  # collecting one object can make others collectable
         session.send("HeapProfiler.collectGarbage")
     used = session.send("Runtime.getHeapUsage")["usedSize"] / 1e6
     session.detach()
@@ -1369,7 +1369,7 @@ def stored(tmp_path_factory):
     return path
 
 
-def test_stored_still_picture_has_words_that_nbval_compares(stored, tmp_path):
+def test_stored_still_picture_contains_text_that_nbval_compares(stored, tmp_path):
     once = stored.read_bytes()
     notebook = nbformat.reads(once.decode(), as_version=4)
     assert set(notebook.metadata) == {"kernelspec", "language_info"}

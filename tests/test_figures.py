@@ -26,7 +26,7 @@ def figures():
     ax = few.subplots()
     ax.set_title("ten points", fontsize=10)
     ax.set_xticks([0, 1], ["a", "b"], fontsize=9)
-    ax.set_yticks([0, 1], ["", " "], fontsize=2)  # blank, so not to be read
+    ax.set_yticks([0, 1], ["", " "], fontsize=2)  # blank labels need not be readable
     return {
         "postures": plot_postures(IRB140, Q, title="A motion of six joints"),
         "joints": plot_joints(IRB140, T, Q),
@@ -45,7 +45,7 @@ def brightness(page, selector):
 
 
 @pytest.mark.parametrize("kind", ["postures", "joints", "frames", "own", "still"])
-def test_pictures_are_dark_in_a_dark_page_and_light_in_print(browser, figures, kind):
+def test_pictures_are_dark_on_a_dark_page_and_light_in_print(browser, figures, kind):
     html = animate(IRB140, T, Q).html if kind == "still" else made(figures[kind])
     context = browser.new_context(color_scheme="dark", java_script_enabled=False)
     page = context.new_page()
@@ -60,7 +60,7 @@ def test_pictures_are_dark_in_a_dark_page_and_light_in_print(browser, figures, k
 
 
 @pytest.mark.parametrize("light", ["false", "true"])
-def test_the_theme_of_jupyterlab_is_stronger_than_that_of_the_system(browser, figures, light):
+def test_jupyterlab_theme_overrides_the_system_theme(browser, figures, light):
     page = browser.new_page(color_scheme="dark" if light == "true" else "light")
     page.set_content(f"<body data-jp-theme-light={light}>{made(figures['own'])}</body>")
     assert (brightness(page, "img") < 0.2) == (light == "false")
@@ -81,7 +81,7 @@ def test_red_green_and_blue_axes_keep_their_hues_in_the_dark(browser, figures):
 
 
 @pytest.mark.parametrize("kind", ["postures", "frames", "own"])
-def test_text_of_figures_has_ten_pixels_on_a_phone_too(browser, figures, kind):
+def test_figure_text_is_at_least_ten_pixels_high_even_on_a_phone(browser, figures, kind):
     fig = figures[kind]
     fig.canvas.draw()
     sizes = [
@@ -108,7 +108,7 @@ def test_text_of_figures_has_ten_pixels_on_a_phone_too(browser, figures, kind):
 
 
 @pytest.mark.parametrize("theme", ["light", "dark"])
-def test_a_shadow_shows_on_which_side_a_figure_goes_on(browser, theme):
+def test_shadow_marks_each_side_on_which_a_figure_continues(browser, theme):
     fig = figure("An empty figure that is wide.", width=9, height=2)
     fig.text(0.5, 0.5, "word", fontsize=8)
     page = browser.new_page(viewport={"width": 390, "height": 700}, color_scheme=theme)
@@ -135,10 +135,10 @@ def test_a_shadow_shows_on_which_side_a_figure_goes_on(browser, theme):
 # --- Notebooks that are handed in -----------------------------------------------------------------
 
 
-def test_figures_in_a_report_are_those_of_the_notebook(figures):
+def test_report_shows_the_figures_of_the_notebook_without_additions(figures):
     html = made(figures["own"])
     assert again(html, "nonce") == html
-    alone = re.search(r"<img [^>]*>", html)[0]  # as in an older notebook
+    alone = re.search(r"<img [^>]*>", html)[0]  # the form in older notebooks
     older = re.sub(r'style="[^"]*" ', "", alone)
     assert "min-width:900px" in again(older, "nonce") and "robokin-figure" in again(older, "nonce")
     evil = html.replace("<style>", "<style>@import url(https://example.org/x.css);")

@@ -63,12 +63,12 @@ def test_moving_things_are_drawn_and_missing_ones_are_not(tmp_path):
     assert not alike(moved[0], moved[-1])
     gone = np.where(T[:, None] > 2, np.nan, WAY)
     found, _ = frames(animate(IRB140, T, gone), tmp_path / "gone.gif")
-    dark = (found.max(axis=-1) < 100).sum(axis=(1, 2))  # pixels of the arm and a few words
+    dark = (found.max(axis=-1) < 100).sum(axis=(1, 2))  # pixels of the arm and a few labels
     assert dark[-1] < dark[:20].min() / 3
 
 
 def test_labels_of_moving_things_are_next_to_them():
-    """This includes the label of a thing that is missing in the second half."""
+    """A thing that is missing in the second half has no label there."""
     at = np.arange(0, 401, 40)
     still = np.repeat(WAY[:1], len(T), axis=0)
     way = [0.3, 0.5, 0.9] + T[:, None] / 4 * [0.4, -0.8, -0.4]
@@ -90,7 +90,7 @@ def test_labels_of_moving_things_are_next_to_them():
         assert len(found) == shown and np.linalg.norm(found[-1] - found[0]) > 50
 
 
-def test_foreign_files_are_kept_and_large_films_refused(tmp_path, monkeypatch):
+def test_foreign_files_are_kept_and_large_films_are_refused(tmp_path, monkeypatch):
     player = animate(IRB140, T, WAY)
     mine = tmp_path / "mine.gif"
     Image.new("RGB", (4, 4)).save(mine)

@@ -1,4 +1,4 @@
-"""Geometries: links and inverse from the same lengths, one tolerance, and reasons in words."""
+"""Geometries: links and inverse from the same lengths, one tolerance, sentences for reasons."""
 
 import dataclasses
 
@@ -160,7 +160,7 @@ def away(x):
 @pytest.mark.parametrize("name", BORDERS)
 def test_ik_and_explain_agree_on_the_border_of_every_geometry(name):
     """`explain` gives a reason exactly for the rows that are NaN in `ik`, from a rounding error to
-    10 mm beyond the border. (In between, the first edition said "does not exist: .".)
+    10 mm beyond the border. (Between these distances, the reason in the first edition was empty.)
     """
     ik, words = BORDERS[name]
     reached = []
@@ -180,11 +180,11 @@ def test_ik_and_explain_agree_on_the_border_of_every_geometry(name):
 
 @pytest.mark.parametrize("exponent", range(2, 17))
 def test_ik_of_equal_links_is_accurate_near_the_shoulder(exponent):
-    """The law of cosines loses half of the digits there: the error was once as large as the
-    distance.
+    """The law of cosines loses half of the digits near the shoulder: the error was once as large as
+    the distance.
     """
     d = 10.0**-exponent
-    # Within 1e-13 of the reach, a point counts as on axis 1, where joint 1 is free.
+    # A point nearer to axis 1 than 1e-13 times the reach counts as on it, so joint 1 is free.
     tolerance = 4e-15 if exponent < 12 else 4e-13
     angle = np.linspace(0, TURN, 13)
     circle = np.stack([np.cos(angle), np.sin(angle), 0 * angle], axis=-1) * d
@@ -201,7 +201,7 @@ def test_ik_of_equal_links_is_accurate_near_the_shoulder(exponent):
     scara = scara_arm("equal", 0.2, 1, 1, [(-3, 3)] * 3 + [(0, 1)])
     rows = scara.ik(ScaraPose(circle, 0.3))
     assert abs(scara.fk(rows).translation - circle[:, None]).max() < tolerance
-    arm = itmo_arm(0.1, 0.5, 0.5, 0.2)  # its wrist centre will be on the shoulder
+    arm = itmo_arm(0.1, 0.5, 0.5, 0.2)  # the targets put its wrist centre near the shoulder
     T = Transform(Quaternion.from_angle_axis(0.7, (0, 0, 1)), lifted + [0, 0, 0.1])
     T = T @ away(0.2)
     back = arm.fk(arm.ik(T))
@@ -210,7 +210,7 @@ def test_ik_of_equal_links_is_accurate_near_the_shoulder(exponent):
 
 
 def test_free_joints_of_folded_equal_links_follow_the_motion():
-    """The tip is at the base, where joint 1 may have any value, so a motion keeps its value."""
+    """The tip is at the base, where joint 1 is free, so a motion keeps the value it had."""
     scara = scara_arm("equal", 0.2, 1, 1, [(-3, 3)] * 3 + [(0, 1)])
     rows = scara.ik(ScaraPose((0.0, 0.0, 0.1), 0.3))
     near = np.array([1.1, np.pi, 0.2, 0.1])
@@ -312,7 +312,7 @@ def test_links_may_have_any_axis_and_orientation():
         assert abs(abs(np.dot(r1, r2)) - 1) < 1e-14 and np.allclose(o1, o2, rtol=0, atol=1e-14)
 
 
-def test_lengths_in_words_have_a_suitable_unit():
+def test_printed_lengths_have_a_suitable_unit():
     assert length_unit(2.0) == ("mm", 1e-3) and length_unit(2.01) == ("m", 1.0)
     assert in_words(0.0123) == "12.3 mm" and in_words(12.34) == "12.3 m"
     assert in_words(9.99) == "9990.0 mm"

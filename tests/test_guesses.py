@@ -158,9 +158,7 @@ def test_foreign_file_is_refused_and_not_overwritten(tmp_path, text):
     remarks = []
     made = guesses(handed_in(lab), remarks)
     assert made[0].choice == "c" and "guesses.json cannot be used" in remarks[0]
-    for (
-        choice
-    ) in "ab":  # the first call sets the bad file aside, the second has nothing to set aside
+    for choice in "ab":  # the first call sets the bad file aside; the second finds a good one
         keep(lab, [(P1, choice, at(ord(choice) - 90))])
     assert chosen(lab) == {P1: ["a", "b"]}
     assert (tmp_path / ".robokin" / "guesses.broken1.json").read_text() == text
@@ -201,7 +199,7 @@ def test_full_file_is_read_quickly(tmp_path):
     assert time.process_time() - begun < 2
 
 
-def test_copy_and_plain_shells_do_not_save_guesses(tmp_path, monkeypatch):
+def test_copies_have_no_guesses_and_plain_shells_save_none(tmp_path, monkeypatch):
     keep(notebook(tmp_path / "labs" / "01_lab.ipynb", ids=[P1]), [(P1, "b", at(1))])
     copy(tmp_path / "mine", tmp_path / "labs")
     assert [path.name for path in (tmp_path / "mine").rglob("guesses*")] == []

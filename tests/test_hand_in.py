@@ -71,7 +71,7 @@ def test_report_without_a_name_prints_one_line(desk, who):
 
 
 @pytest.mark.parametrize("where", ["judged", "in a page", "only executed"])
-def test_report_outside_a_front_end_prints_the_same_line(desk, monkeypatch, where):
+def test_report_outside_a_front_end_prints_one_line(desk, monkeypatch, where):
     stored(desk.lab, REPORT)
     if where == "judged":
         monkeypatch.setenv("ROBOKIN_JUDGE", "1")
@@ -84,14 +84,14 @@ def test_report_outside_a_front_end_prints_the_same_line(desk, monkeypatch, wher
     assert "\n" not in ASLEEP
 
 
-def test_student_names_may_be_anything(desk):
+def test_any_student_name_is_accepted(desk):
     stored(desk.lab, REPORT)
     for who in (7, "Zoë -x", "李 小龙"):
         assert report(who) == "written" and desk.judged[-1] == ("lab.ipynb", str(who))
 
 
 def test_modules_do_not_shadow_exported_names():
-    """Otherwise, importing the module would replace the function."""
+    """Importing a module named like a function would replace the function."""
     modules = {path.stem for path in Path(course.__file__).parent.iterdir()}
     assert not modules & set(course.__all__)
 
@@ -291,7 +291,7 @@ def test_complete_session_writes_a_report(tmp_path):
 
 @pytest.mark.skipif(os.name == "nt", reason="a login shell")
 def test_commands_of_lab_00_work(tmp_path):
-    """They run in a login shell, in the folder of the clone, without our Python on the path."""
+    """The commands run in a login shell, in the clone's folder, without our Python on the path."""
     [told] = [cell for cell in _prose("00_start_here.ipynb") if "-m robokin.course report" in cell]
     assert "in the folder from which you started JupyterLab" in " ".join(told.split())
     [commands] = re.findall(r"^```sh\n(.*?)^```", told, re.M | re.S)

@@ -294,7 +294,7 @@ def forged(url):
 
 
 def data_of(words=("a sentence",)):
-    """The data of a report with these words in every field that can contain them."""
+    """The data of a report with these strings in every field that can contain them."""
     lab = book.lab("scara_motion")
     word = words[0]
     states = ["holds", "does not hold", "failed", "not judged", "unanswered"]
@@ -364,7 +364,7 @@ class Opened:
 
 @pytest.fixture(scope="module")
 def seen(browser, listening, tmp_path_factory):
-    """The contents of the harmless and the attacked pages when opened, and the requests made."""
+    """The contents of the opened pages, harmless and attacked, and the requests that they made."""
     folder = tmp_path_factory.mktemp("hostile")
     opened = Opened(browser, folder)
     quiet = new_notebook(cells=[new_markdown_cell("Words"), new_code_cell("1 + 1")])
@@ -633,7 +633,7 @@ def test_page_is_converted_quickly(piece, size, tmp_path):
     assert time.process_time() - begin < 2 * max(1, 3 * size / 1e6)
 
 
-def test_many_cells_take_no_longer_than_one(tmp_path):
+def test_total_time_for_many_cells_is_limited(tmp_path):
     cells = [new_markdown_cell("<b>x</b> &amp; " * 1000) for _ in range(200)]  # 3 MB
     begin = time.process_time()
     view = View(tmp_path, lenient=True)
@@ -697,8 +697,8 @@ def guess_all(page):
 
 
 def alive(page, calls):
-    """Assert that every view is awake, including those behind predictions; return the number of
-    those.
+    """Assert that every view has started, including those behind predictions; return the number of
+    those behind predictions.
     """
     before = page.evaluate(AWAKE)
     assert len(before) == len(calls) and all(before)

@@ -45,7 +45,7 @@ LAYERS = {
     "robokin.quaternion": ("robokin._arrays", "robokin._validate"),
     "robokin.transform": ("robokin._arrays", "robokin._validate", "robokin.quaternion"),
     "robokin.arms": BASE,
-    # it may use values with a `lerp`, but no arms
+    # uses any value with a `lerp`, but no arms
     "robokin.motion": ("robokin._arrays", "robokin._validate", "robokin.units"),
     "robokin.motion.recording": (*BASE, "robokin.arms", "robokin.motion.derivatives"),
     "robokin.jobs": KINEMATICS,

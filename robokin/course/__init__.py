@@ -35,7 +35,7 @@ __all__ = [
 ]
 
 watch()  # a lab's first cell imports this, so `report` knows which cells ran after it
-# exercise id -> its latest verdict in this kernel; a verdict that holds is kept
+# exercise id -> its latest verdict in this kernel; a passing verdict is kept
 _verdicts: dict[str, Verdict] = {}
 
 
@@ -62,7 +62,7 @@ def check(name: str | Exercise, answer: Any = None, who: Any = None) -> Verdict:
     if isinstance(name, Exercise):  # not a lab exercise
         return verdict
     before = _verdicts.get(verdict.exercise)
-    if before is None or not before.holds:  # a verdict that holds is kept
+    if before is None or not before.holds:  # a passing verdict is kept
         _verdicts[verdict.exercise] = verdict
     return verdict
 

@@ -173,7 +173,7 @@ class _Worker:
         self.started, self.ident = False, 0
         self.outcomes: list[Outcome] = []
         self.over = "case"  # which of the three limits was reached
-        locks = [threading.Lock() for _ in range(4)]  # each is released when its point is reached
+        locks = [threading.Lock() for _ in range(4)]  # each is released to signal an event
         self.begun, self.done, self.leave, self.gone = locks
         for lock in locks:
             lock.acquire()

@@ -33,7 +33,7 @@ OURS = Path(__file__).parents[2] / "notebooks" / "exercises"
 ELSEWHERE = "ROBOKIN_EXERCISES"
 WORDS = ("objectives", "predictions")  # Markdown files that are not exercises
 MORE = "For labs of your own, set ROBOKIN_EXERCISES=FOLDER or pass --exercises FOLDER."
-DEFAULTS = ("form", "law", "same")  # names that `own` does not take from a notebook
+DEFAULTS = ("form", "law", "same")  # `own` ignores these names in a notebook
 
 
 class Lab:
@@ -52,7 +52,7 @@ class Lab:
 
     @cached_property
     def objectives(self) -> tuple[str, ...]:
-        """What a student is able to do after the lab."""
+        """What a student can do after the lab."""
         file = self.folder / "objectives.md"
         with self._noted(file.name):
             return markdown.objectives(markdown.read(file)) if file.is_file() else ()
@@ -190,7 +190,7 @@ def _labs(ours: Path, elsewhere: str) -> Mapping[str, Lab]:
         first = [name for name in numbered(place) if name in folders]
         for name in dict.fromkeys([*first, *sorted(folders)]):
             taken, here = found.get(name), folders[name]
-            if taken and taken.folder != here:  # nobody can replace one of our labs
+            if taken and taken.folder != here:  # our labs cannot be replaced
                 told = f"{here}: not read, since {taken.folder} has the same name"
                 taken.broken[f"{here}"] = told
             found.setdefault(name, Lab(here))
@@ -225,8 +225,8 @@ def find(name: Any, what: str) -> Any:
     known = labs()
     if known and (slug not in known or not dot):
         raise ValueError(
-            f'id: wanted an id such as "{next(iter(known))}.1", of the labs {", ".join(known)}; '
-            f"got {name!r}. {MORE}"
+            f'id: wanted an id such as "{next(iter(known))}.1", from one of the labs '
+            f"{', '.join(known)}; got {name!r}. {MORE}"
         )
     entries, broken = getattr(lab(slug), what), lab(slug).broken
     if number not in entries:

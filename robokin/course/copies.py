@@ -161,7 +161,7 @@ class _Folder:
         finally:
             try:
                 self._remember()
-            except OSError as error:  # the next copy will find out what is there
+            except OSError as error:  # the next copy will look at the files
                 self._say(".robokin/manifest.json", "failed", _reason(error))
         return self.outcomes
 
@@ -180,7 +180,7 @@ class _Folder:
             return job
         beside = [p for p in self._beside(path) if p not in labs]
         there = {p: _held(self.folder / p) for p in (path, *beside)}
-        # this includes an older version to which the student went back
+        # this includes an older version that the student has restored
         known = (holds, job.version)
         job.places = [p for p in there if there[p] in ours and (there[p], entry.laid) != known]
         for place in job.places:
@@ -344,7 +344,8 @@ def _locked(file: BinaryIO) -> bool:
 
 def _prepared(content: bytes) -> tuple[bytes, Any]:
     """A notebook as text to write, and as nbformat's object. ValueError: it is not a notebook."""
-    import nbformat  # imported here, since it takes most of the time when nothing has changed
+    # imported only if needed: it would take most of the time of a copy that changes nothing
+    import nbformat
 
     try:
         data = json.loads(content)
@@ -417,7 +418,8 @@ def _put(path: Path, place: Path) -> None:
     except (OSError, NotImplementedError):  # a file system without links, or not a regular file
         if os.path.lexists(place):
             raise FileExistsError(place) from None
-        os.rename(path, place)  # checks again on Windows; elsewhere the race is microseconds long
+        # never overwrites on Windows; elsewhere another process has microseconds to interfere
+        os.rename(path, place)
     else:
         os.unlink(path)
 

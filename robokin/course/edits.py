@@ -52,7 +52,7 @@ def own(
 
 
 def pairs(variants: Sequence[Variant]) -> Iterator[Variant]:
-    """All pairs of mistakes that change different places."""
+    """All pairs of mistakes whose edits do not overlap."""
     for a, b in combinations(variants, 2):
         if isinstance(a.change, str) or isinstance(b.change, str) or a.name == b.name:
             continue
@@ -243,7 +243,7 @@ class Steps:
     quickly. Each wrong program consists of compiled statements and begins after those that it
     shares with the solution, with its own copies of all values that a statement may change. A
     solution cannot be split, and is compiled again for each wrong program, if it returns in more
-    than one place or keeps a function, which may use later names.
+    than one place or assigns a function to a name, since that function may use later names.
     """
 
     def __init__(self, solution: str, also: Mapping[str, Any]) -> None:
@@ -291,7 +291,7 @@ class Steps:
                 names = self._after(count - 1, case)
                 exec(_step(self.solution[slice(*self.spans[count - 1])]), names)
             self.names[key] = {k: v for k, v in names.items() if v is not self.before.get(k, ...)}
-        memo: dict[int, Any] = {}  # an array with two names remains one array
+        memo: dict[int, Any] = {}  # two names of one array still share it
         mine = self.names[key].items()
         return self.before | {
             k: copy.deepcopy(v, memo) if isinstance(v, CHANGEABLE) else v for k, v in mine

@@ -1,4 +1,4 @@
-"""The common parts of all exercises: the verdict on an answer, and values in words."""
+"""The common parts of all exercises: the verdict on an answer, and values as text."""
 
 import contextlib
 import html
@@ -88,7 +88,7 @@ def unanswered(name: str) -> Verdict:
     return Verdict(name, answered=False, says=(EMPTY,))
 
 
-# --- Values in words ------------------------------------------------------------------------------
+# --- Values as text -------------------------------------------------------------------------------
 
 
 def has_nan(value: Any) -> bool:

@@ -42,7 +42,7 @@ TEX = 2_000  # maximum number of characters in a formula; the parser's stack gro
 # libraries take up to 10 s per megabyte. Text beyond these limits is shown as it was typed.
 PIECE, ROOM = 50_000, 150_000
 MOST = 200  # maximum number of robokin outputs in a page
-OPENERS = ("\\\\[", "\\\\(", "\\begin{")  # for each of these, the parser searches for the end
+OPENERS = ("\\\\[", "\\\\(", "\\begin{")  # the parser searches for the end of each of these
 TEXTS = ("text/latex", "text/plain")
 IMAGES = ("image/svg+xml", "image/png", "image/jpeg", "image/gif", "image/webp")
 FIRST = ("text/html", "text/markdown", "image/svg+xml", "text/latex", *IMAGES[1:], "text/plain")
@@ -293,7 +293,7 @@ class Exporter(HTMLExporter):
 
     def from_notebook_node(self, nb: Any, resources: Any = None, **kw: Any) -> Any:
         """As in HTMLExporter, but without parsing the resulting page."""
-        for name in ("highlight_code", "filter_data_type"):  # HTMLExporter would register them
+        for name in ("highlight_code", "filter_data_type"):  # replaces filters of HTMLExporter
             self.register_filter(name, lambda value: value)
         return TemplateExporter.from_notebook_node(self, nb, resources, **kw)
 

@@ -64,7 +64,7 @@ class Function(Exercise):
         self.alike = code.get("same", forms.same)
         self.made: dict[Any, tuple[Callable[..., Any], dict[int, Any]]] = {}
         self.trying = ""  # the mistake whose program is running
-        self.endless: list[str] = []  # mistakes that did not end and are not run again
+        self.endless: list[str] = []  # mistakes that never ended; they are not run again
 
     @cached_property
     def cases(self) -> list[Case]:
@@ -225,7 +225,7 @@ class Function(Exercise):
         for group in () if raising else (self._pairs, self._slipped):
             found = [c for c in group() if self.agrees(c, outcomes, wrong, order)]
             names = list(dict.fromkeys((c.name, c.says) for c in found))
-            if len(names) > 1:  # pairs with different names are only a guess
+            if len(names) > 1:  # several explanations fit, so any one would be a guess
                 return []
             # a result with few possible values is weak evidence for a pair of mistakes
             if names and isinstance(outcomes[first].result, (bool, np.bool_, str)):

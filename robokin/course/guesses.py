@@ -36,7 +36,7 @@ FOLDER, FILE = ".robokin", "guesses.json"
 LARGE = 1_000_000  # maximum number of bytes in a file of guesses; a student's has a few thousand
 NAME = re.compile(r"\w{1,60}\.p[0-9]{1,3}", re.ASCII)
 CHOICE = re.compile(r"[a-f](?:: [^\r\n]{1,60})?|[-+.eE0-9]{1,30}")  # "b", "b: joint 3", "-290"
-ASKED = re.compile(rb"""predict\(\s*\\?["'](\w{1,60}\.p[0-9]{1,3})""")  # a call in a notebook file
+ASKED = re.compile(rb"""predict\(\s*\\?["'](\w{1,60}\.p[0-9]{1,3})""")  # a call in a notebook
 PATIENCE = 10  # seconds to wait for another kernel that is writing
 
 Kept: TypeAlias = dict[str, list[tuple[str, str | None]]]  # prediction -> its guesses, with times
@@ -91,11 +91,11 @@ def keep(path: Path, made: Iterable[tuple[str, str, str]]) -> None:
 
 
 def parse_line(text: str) -> dict[str, str]:
-    """The guesses in the line that a page copies, "p1 b, p3 a, p5 -290": {"p1": "b", ...}, in
+    """The guesses in the line copied from a page, "p1 b, p3 a, p5 -290": {"p1": "b", ...}, in
     order. ValueError: another format. TypeError: not text.
     """
     if not isinstance(text, str):
-        raise TypeError(f"guesses: wanted the line that a page copies, got {short(text)}")
+        raise TypeError(f"guesses: wanted the line copied from a page, got {short(text)}")
     found: dict[str, str] = {}
     for part in text.split(",") if text.strip() else ():
         number, _, choice = part.strip().partition(" ")
@@ -132,7 +132,7 @@ class Guess:
 
 def guesses(handed: "HandedIn", remarks: list[str] | None = None) -> tuple[Guess, ...]:
     """The results of the predictions, without running anything. Guesses saved by a kernel come
-    first, then those in the line that a page copies, then the choice in the cell. Unusable guesses
+    first, then those in the line copied from a page, then the choice in the cell. Unusable guesses
     are reported in `remarks`.
     """
     kept: Kept = {}
@@ -163,7 +163,7 @@ def _beside(path: Path, slug: str) -> list[str]:
     We do not use those: the other copy may belong to another student or another attempt.
     """
     found = []
-    with contextlib.suppress(OSError, ValueError):  # already in the remarks
+    with contextlib.suppress(OSError, ValueError):  # `remarks` has the error already
         for name, kept in _stored(path.parent / FOLDER / FILE).items():
             first = {p: made[0][0] for p, made in kept.items() if made and _known(p)}
             mine = {p.partition(".")[2]: c for p, c in first.items() if p.startswith(f"{slug}.")}
@@ -274,7 +274,7 @@ def _moment(time: Any) -> datetime:
             return moment
     except (ValueError, TypeError, OverflowError):
         pass
-    raise ValueError(f"wanted a time with its offset, got {short(time)}")
+    raise ValueError(f"wanted a time with its UTC offset, got {short(time)}")
 
 
 def _known(name: str) -> bool:
@@ -340,7 +340,7 @@ def _told(message: Any, own: Path) -> dict[str, Any]:
     try:
         made = [(_id(name), _choice(choice), time) for name, choice, time in message["guesses"]]
         keep(_called(message["path"], own), made)
-    except Exception as error:  # the page shows the error; nobody would read it here
+    except Exception as error:  # the page shows the error; here it would go unseen
         reason = getattr(error, "strerror", None) or error
         return {"n": message["n"], "error": str(reason)}
     return {"n": message["n"]}

@@ -56,7 +56,7 @@ class HandedIn:
     checks   the last call for each exercise, which is the one that counts
     choices  the last call with a choice for each prediction
     broken   the exercises that are checked in cells that cannot be read as Python: id -> reason
-    guesses  the line of guesses copied from a page, from the last call of `report` with one
+    guesses  the line of guesses copied from a page, in the last call of `report` that has one
     strange  other exercises that the notebook checks: the student's own
     """
 
@@ -269,7 +269,7 @@ def _call(node: ast.Call, cell: int) -> tuple[str, Call] | None:
     asked = arguments.get("name")
     name = asked.value if isinstance(asked, ast.Constant) else None
     if what == "check" and asked is not None and not isinstance(name, str):
-        name = ast.unparse(asked)[:60]  # the reader's own exercise
+        name = ast.unparse(asked)[:60]  # the student's own exercise
     if not isinstance(name, str):
         return None
     answer, own = arguments.get(names[1]), arguments.get("who")

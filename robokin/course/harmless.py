@@ -170,7 +170,7 @@ class _Attributes(Filter):  # type: ignore[misc]
 
 def harmless_link(address: str) -> str:
     """Return an address that a reader may follow: web, mail, a page next to this one (or another
-    notebook), a place in this page. "" for any other.
+    notebook), a place on this page. "" for any other.
     """
     address = re.sub(r"[\0-\x1f\x7f-\x9f]", "", address).strip().replace(" ", "%20")
     scheme = re.match(r"([^/?#]*):", address)

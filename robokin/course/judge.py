@@ -220,7 +220,7 @@ class NotebookRun:
             return replace(blank, state="failed", says=(says,))
         try:
             return _verdict(blank, found["verdict"])
-        except (KeyError, TypeError, ValueError):  # a notebook that imitates our answer
+        except (KeyError, TypeError, ValueError):  # a notebook can imitate our reply
             return replace(
                 blank, state="failed", says=("No answer to judge: this is not a verdict.",)
             )

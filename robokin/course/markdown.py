@@ -17,7 +17,7 @@ class Wrong(NamedTuple):
     name: str
     says: str
     programs: tuple[tuple[Edit, ...] | str, ...]
-    lines: tuple[int, ...]  # lines of the programs in the file
+    lines: tuple[int, ...]  # the line number of each program in the file
 
 
 class BadFile(ValueError):
@@ -49,7 +49,7 @@ class Text(NamedTuple):
         return line + text.count("\n", 0, found.start(1)), found[1]
 
     def prose(self, part: str) -> str:
-        """The words of a section on one line."""
+        """The text of a section on one line."""
         return one_line(self.parts.get(part, (0, ""))[1])
 
     def wrong(self, part: str = "Mistakes") -> list[Wrong]:
@@ -84,7 +84,7 @@ def why(error: Exception) -> str:
 
 
 def one_line(text: str) -> str:
-    """The words of a text, separated by single spaces."""
+    """The text with single spaces between its words."""
     return " ".join(text.split())
 
 
@@ -110,7 +110,7 @@ def objectives(text: str) -> tuple[str, ...]:
 
 
 def _hint(text: str) -> str:
-    """A hint: its words on one line, followed by its program, if any."""
+    """A hint: its text on one line, followed by its program, if any."""
     found = CODE.search(text)
     if not found:
         return one_line(text)

@@ -46,7 +46,7 @@ KINDS: dict[str, Any] = {
 }
 CALL = re.compile(r'^\$(\w+\.\w+)\("[0-9a-f]{12}", (.*)\);$', re.M)
 STILL = re.compile(r'src="data:image/png;base64,([A-Za-z0-9+/]+={0,2})"')
-FIGURE = re.compile(  # older notebooks have the image alone
+FIGURE = re.compile(  # older notebooks store only the image
     r'(?:<div class="robokin-figure">)?<img alt="([^"<>]*)" width="(\d{1,5})" height="(\d{1,5})" '
     r'(?:style="[^"<>]*min-width:(\d{1,5})px[^"<>]*" )?'
     r'src="data:image/png;base64,([A-Za-z0-9+/]+={0,2})">(?:</div>\s*<style>[^<]*</style>)?\s*'
@@ -138,7 +138,7 @@ def _refused(word: str) -> None:
 
 
 def _ordinary(table: dict[str, Any]) -> dict[str, Any]:
-    if "__proto__" in table:  # in a script this is not a key: it sets the prototype
+    if "__proto__" in table:  # JavaScript would set the prototype instead of a key
         raise ValueError("__proto__ is not allowed as a key")
     return table
 

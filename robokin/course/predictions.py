@@ -30,7 +30,7 @@ def worked_out(name: str) -> tuple[str, list[Option], int]:
 
 
 def chosen(name: str, choice: str) -> str:
-    """A choice in words: the letter and the text of its option, or a number with its unit. An
+    """A choice as text: the letter and the text of its option, or a number with its unit. An
     unknown choice is returned unchanged.
     """
     unit = find(name, "predictions").unit
@@ -94,7 +94,7 @@ class Asked:
 
     @property
     def html(self) -> str:
-        """The HTML of the question: its words, and the script that replaces them."""
+        """The HTML of the question: its text, and the script that replaces it."""
         return self._in_page()
 
     def _in_page(self, nonce: str = "") -> str:

@@ -49,7 +49,7 @@ class Ended(NamedTuple):
 
     how   "in time", "stopped" by an interrupt, "killed" with the kernel, "dead": it killed the
           kernel, or "unread": nbclient cannot read the messages
-    slow  whether the wall-clock limit stopped it, and not the CPU limit
+    slow  whether it was stopped by the wall-clock limit rather than the CPU limit
     """
 
     how: str
@@ -70,7 +70,7 @@ class Kernel:
         with contextlib.suppress(psutil.Error):
             for each in (self.process, *self.process.children(recursive=True)):
                 with contextlib.suppress(psutil.Error):
-                    used += sum(each.cpu_times()[:4])  # its own time and that of ended children
+                    used += sum(each.cpu_times()[:4])  # its own time and that of its ended children
         self.used = max(self.used, used)  # the last value remains after the process has ended
         return self.used
 

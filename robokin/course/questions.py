@@ -39,7 +39,7 @@ class Prediction:
               right one and those of the confusions, which are hidden
     facts     () -> the numbers behind all texts
     right     facts -> the index of the right option, from 0, always computed
-    view      () -> the view after the choice: an `Output` or a `Figure` of robokin.show, or words
+    view      () -> the view after the choice: an `Output` or a `Figure` of robokin.show, or text
     unit      the unit of a number to type; `within`: the relative tolerance
     optional  whether it is in the optional part of the lab
     """

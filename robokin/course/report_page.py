@@ -103,7 +103,7 @@ def told(handed: HandedIn, who: str, judged: Judged) -> dict[str, Any]:
 
 
 def objectives(data: dict[str, Any]) -> list[tuple[str, str]]:
-    """(objective, "holds", "begun" or "not yet") for each objective of the lab."""
+    """(objective, state) for each objective of the lab: "holds", "begun" or "not yet"."""
     found = []
     texts = lab(data["lab"]).objectives if data["lab"] else ()
     for k, text in enumerate(texts, 1):
@@ -173,7 +173,7 @@ def _day(time: str) -> str:
 
 
 def _sentence(text: str) -> Markup:
-    """Convert words to HTML; text between backticks is code."""
+    """Convert plain text to HTML; text between backticks is code."""
     words = str(Markup.escape(shortened(visible(text), WORDS)))
     return Markup(re.sub("`([^`]+)`", r"<code>\1</code>", words))
 

@@ -53,7 +53,7 @@ def validated(data: Any) -> dict[str, Any]:
         raise ValueError("its data are not in a format that this version of robokin knows")
     old, slug = data["report"] == 1, data.get("lab")
     if slug is not None and not (isinstance(slug, str) and slug in labs()):
-        raise ValueError(f"lab: wanted a known one, got {short(slug)}. {MORE}")
+        raise ValueError(f"lab: wanted the name of a known lab, got {short(slug)}. {MORE}")
     who = _text(data, "who", TEXT)
     if len(who) > NAME:
         raise ValueError(f"who: wanted at most {NAME} characters, got {len(who)}")
@@ -177,5 +177,5 @@ def _time(data: dict[str, Any], name: str) -> str:
     except (TypeError, ValueError, OverflowError):
         good = False
     if not good:
-        raise ValueError(f"{name}: wanted a date with an offset, got {short(data.get(name))}")
+        raise ValueError(f"{name}: wanted a date with a UTC offset, got {short(data.get(name))}")
     return when.isoformat()

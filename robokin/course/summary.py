@@ -38,7 +38,7 @@ LARGE = 50_000_000  # maximum number of bytes in a file; a report has a tenth of
 @dataclass(frozen=True)
 class Entry:
     """The work of one student for one lab. `file`: its path below the folder, as text; `data`:
-    validated, as in a report; `handed`: a notebook still to be judged; `judged`: a judged one.
+    validated, as in a report; `handed`: the notebook, until it is judged; `judged`: whether it was.
     """
 
     who: str
@@ -51,12 +51,12 @@ class Entry:
 
     @property
     def date(self) -> str:
-        """Its date and time, in the local time zone."""
+        """The date and time of the work, in the local time zone."""
         return f"{self.when.astimezone():%Y-%m-%d %H:%M}"
 
     @property
     def objectives(self) -> list[tuple[str, str]]:
-        """(objective, "holds", "begun" or "not yet")."""
+        """(objective, state) of each objective: "holds", "begun" or "not yet"."""
         return objectives(self.data)
 
     @property
@@ -66,7 +66,7 @@ class Entry:
 
     @property
     def held(self) -> str:
-        """The number of exercises that hold: "2 of 3"."""
+        """The number of solved exercises: "2 of 3"."""
         states = [each["state"] for each in self.data["exercises"]]
         return f"{states.count('holds')} of {len(states)}"
 
@@ -112,7 +112,7 @@ def summary(
     student's lab. ValueError: not a folder.
     """
     if not folder.is_dir():
-        raise ValueError(f"folder: wanted one that exists, got {str(folder)!r}")
+        raise ValueError(f"folder: wanted an existing folder, got {str(folder)!r}")
     made = Summary()
     found: dict[tuple[str, str], list[Entry]] = defaultdict(list)
     for inside, problem in _files(folder):
@@ -253,7 +253,7 @@ def _newest(several: list[Entry], limits: Limits) -> tuple[Entry | None, list[Le
 
 
 def _at_home(entry: Entry) -> bool:
-    """Whether a folder that contains its file has the student's name."""
+    """Whether a folder that contains the entry's file has the student's name."""
     name, folders = normalised(entry.who), normalised(f"/{Path(entry.file).parent}")
     return bool(re.search(rf"(?<![^\W_]){re.escape(name)}(?![^\W_])", folders))
 

@@ -178,7 +178,7 @@ def sheet(entry: Entry, points: bool = True) -> str:
 
 
 def _figures(slug: str, rows: list[tuple[Entry, str]]) -> dict[str, Any]:
-    """The number of students for whom each exercise and each objective of a lab holds."""
+    """The number of students for each exercise and state, and for each objective reached."""
     states: dict[str, Counter[str]] = defaultdict(Counter)
     for entry, _ in rows:
         for each in entry.data["exercises"]:
@@ -209,7 +209,7 @@ def _templates() -> jinja2.Environment:
 
 
 def _words(text: str) -> Markup:
-    """Convert words to HTML; text between backticks is code."""
+    """Convert plain text to HTML; text between backticks is code."""
     return Markup(re.sub("`([^`]+)`", r"<code>\1</code>", str(escape(text))))
 
 

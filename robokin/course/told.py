@@ -6,7 +6,7 @@ import numpy as np
 
 from .._arrays import Floats
 
-LARGE = 1e7  # numbers from here on are written with a power of ten
+LARGE = 1e7  # larger numbers are written with a power of ten
 MOST = 12  # maximum number of digits after the decimal point
 RAISED = str.maketrans("-0123456789", "\N{SUPERSCRIPT MINUS}⁰¹²³⁴⁵⁶⁷⁸⁹")
 

@@ -9,13 +9,13 @@ from .book import lab as _lab
 
 
 def normalised(who: Any) -> str:
-    """Return a name without differences in case, in spaces or in the way to type an accent.
+    """Return a name without differences in case, in spaces or in how accents are typed.
     ValueError: nothing is left.
     """
     text = unicodedata.normalize("NFKC", str(who)).casefold()
     text = " ".join(unicodedata.normalize("NFKC", text).split())
     if not text:
-        raise ValueError("who: wanted a name or a number, got an empty one")
+        raise ValueError("who: wanted a name or a number, got an empty name")
     return text
 
 

@@ -117,12 +117,12 @@ def kills(labs, folder, count):
 
 
 def save_for_a_while(path, seconds):
-    """Save repeatedly as JupyterLab does; keep the last version beside the file."""
+    """Save repeatedly as JupyterLab does; keep the last version next to the file."""
     end, k = time.monotonic() + seconds, 0
     try:
         text = edited(path, "COUNT")
     except FileNotFoundError:
-        return  # opened while it was being replaced
+        return  # the lab was just being replaced
     while time.monotonic() < end:
         k += 1
         with atomic_writing(str(path)) as file:
@@ -150,7 +150,7 @@ def saves(labs, folder, count):
         span = time.perf_counter() - start
         saving.join()
         last = folder / f"{SAVED}.last"
-        if last.exists():  # the saving process found the lab when it began
+        if last.exists():  # the saving process found the lab when it started
             seen = [p.read_bytes() for p in folder.glob("*.ipynb")]
             assert last.read_bytes() in seen, "the last save is lost"
             moved += (folder / SAVED).read_bytes() != last.read_bytes()

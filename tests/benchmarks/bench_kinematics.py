@@ -94,7 +94,7 @@ def installed():
 
 
 def describe_processor():
-    """Print the vector level that NumPy uses; return the width of its registers in bits, 512 or
+    """Print the SIMD level that NumPy uses; return the width of its registers in bits, 512 or
     256.
     """
     found = np.show_config(mode="dicts")["SIMD Extensions"]["found"]
@@ -281,7 +281,7 @@ def disagreement(ours, theirs):
     for i in range(6):
         difference = ours[:, :, None, i] - theirs[:, None, :, i]
         away = np.maximum(away, abs(difference - 2 * np.pi * np.round(difference / (2 * np.pi))))
-    same = away < 1e-6  # NaN is never the same
+    same = away < 1e-6  # NaN never matches
     return (exist(theirs) & ~same.any(axis=1)).sum(), (exist(ours) & ~same.any(axis=2)).sum()
 
 

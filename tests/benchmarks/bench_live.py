@@ -282,7 +282,7 @@ def main():
                 root.scroll_into_view_if_needed()
                 node = root.locator(f"[data-handle={case.handle}]")
                 used = []
-                for drags in (200, 1000):  # the first ones warm up
+                for drags in (200, 1000):  # the first 200 are a warm-up
                     node.evaluate(DRAGS, drags)
                     page.wait_for_timeout(3000)
                     used.append(memory(page, lab))

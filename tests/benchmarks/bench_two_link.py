@@ -79,7 +79,7 @@ def each(call):
 
 
 def in_turns(first, second, arguments, rounds):
-    """The seconds that both calls take: [(first, second), ...]."""
+    """The times of both calls in seconds: [(first, second), ...]."""
     times = []
     for _ in range(rounds):
         pair = []

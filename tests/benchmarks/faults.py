@@ -107,7 +107,7 @@ def hunt(repo, sound, faulted, fault):
             test, how = run(faulted, tests, left_out)
             if test is None:
                 break
-            # A cell needs the cells before it; a file that failed at collection is only collected.
+            # A cell needs the cells before it. A file that failed collection is only collected.
             again = test.partition("::")[0] if ".ipynb" in test else test
             if how != "failed" or not run(sound, [again], ["--co"] * ("::" not in test))[0]:
                 return True, test, how
@@ -144,7 +144,7 @@ def run(place, tests, options):
                 with contextlib.suppress(ProcessLookupError):  # ends its child processes, too
                     os.killpg(process.pid, signal.SIGKILL)
         failed = notes.read_text().splitlines() if notes.exists() else []
-    if status == 4 and any("[" in test for test in tests):  # these parameters do not exist here
+    if status == 4 and any("[" in test for test in tests):  # the test has other parameters here
         return run(place, [test.partition("[")[0] for test in tests], options)
     if failed or status in (0, 5):
         return (failed or [None])[0], "failed"

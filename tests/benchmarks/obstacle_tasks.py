@@ -10,7 +10,7 @@ The tasks (2000) are those of tests/test_obstacles.py: on the direct path, lever
 obstacle. A task counts as open if the start posture and the target themselves keep a clearance of
 L/7; for the others the plan must report that no path can keep it. With --brute, the script prints
 the least movement of every open task on a grid of 2 degrees (3 s each), as in `BRUTE` of the tests,
-beside that of our plan.
+next to that of our plan.
 """
 
 import os
@@ -49,7 +49,8 @@ def verdict(path, H):
 def brute_force(q0, K1, H, step=2 * deg):
     """The least S of a path around the obstacle on a grid of postures, by SciPy's Dijkstra and the
     distances of the tests. On an edge, one step of one joint, no lever can come nearer than L/7: a
-    point moves at most (levers that turn) times the step, and half of that from the nearer end.
+    point moves by at most the step times the number of turning levers, and half of that from the
+    nearer end.
     """
     axes = [np.unique(np.r_[np.arange(v, 0, -step), np.arange(v, np.pi, step)]) for v in q0]
     grid = np.stack(np.meshgrid(*axes, indexing="ij"), axis=-1)

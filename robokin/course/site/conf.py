@@ -118,7 +118,7 @@ def _not_ours(app: Any, what: str, name: str, thing: Any, skip: bool, options: A
 
 
 def _as_it_is(app: Any, what: str, name: str, thing: Any, options: Any, lines: list[str]) -> None:
-    """Convert a docstring to reST: paragraphs of words, lists of names, and the rest (examples)
+    """Convert a docstring to reST: paragraphs of text, lists of names, and the rest (examples)
     unchanged.
     """
     made: list[str] = []
@@ -135,7 +135,7 @@ def _as_it_is(app: Any, what: str, name: str, thing: Any, options: Any, lines: l
 
 
 def _words(text: str) -> str:
-    """Convert words to reST without markup, except that text between backticks is code."""
+    """Convert plain text to reST without markup, except that text between backticks is code."""
     pieces = re.split("``?([^`]+)``?", " ".join(text.split()))
     pieces[::2] = (re.sub(r"([^\w\s])", r"\\\1", words) for words in pieces[::2])
     pieces[1::2] = (rf"\ ``{code}``\ " for code in pieces[1::2])
