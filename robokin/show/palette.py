@@ -87,7 +87,7 @@ PAGE: Mapping[str, tuple[str, str]] = MappingProxyType(
 STILL = {
     "still": ("none", "invert(1) hue-rotate(180deg)"),
     "blend": ("multiply", "screen"),  # so that white is the colour of the page
-    "shade": ("#0005", "#fff5"),  # at an edge beyond which a figure goes on
+    "shade": ("#0005", "#fff5"),  # at an edge beyond which a figure continues
 }
 
 
