@@ -442,8 +442,8 @@ def test_collecting_into_a_container_on_the_axis_keeps_the_speed_limit():
     quarter = np.pi / 2 / 0.2
     assert 4 * 2 * way == pytest.approx(23.36, abs=0.005)
     result = collect(task)
-    # the start takes the angle of the first point, the next two points are a quarter of a turn
-    # further each, and the last one lies beyond the stop at half a turn
+    # the start takes the angle of the first point, the next two points are each a quarter turn
+    # further on, and the last one lies beyond the stop at half a turn
     assert result.order == (0, 1, 2, 3)
     np.testing.assert_allclose(
         np.diff(result.times, prepend=0), [2 * way, *2 * [quarter + way], 3 * quarter + way]

@@ -198,7 +198,7 @@ def _page(arm: ThreeLeverArm, first: Question, known: Plan, summary: str) -> Pla
     name, unit = length_unit(size)
     marks = [Mark(first["target"]), Mark(first["obstacle"], radius=first["distance"])]
     scene = scene_data([arm], [_moments(np.array(known.path))[None]], marks, size, grows=True)
-    scene["things"] = []  # the page adds the things
+    scene["things"] = []  # the script of the page adds them
     L = arm.lever
     return {
         "kind": "plan",

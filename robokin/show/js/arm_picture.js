@@ -58,7 +58,7 @@ export function drawRods({g, cam, chain, joints, thick, scene, rods, past = []},
 }
 
 /**
- * Draws the arm, its whole path below it, and the part of the path already passed above it.
+ * Draws the arm, below it the whole path, and above it the part of the path already travelled.
  * @param {Stood} one
  */
 export function drawStood(one) {

@@ -153,7 +153,7 @@ export class Bench {
     return this.since < LONG;
   }
 
-  /** Stops the rotor when its remaining motion is invisible. */
+  /** Stops the rotor when its remaining motion is too small to see. */
   settle() {
     const period = (2 * Math.PI) / this.motor.periods,
       rest = resting(this.motor, this.sent),
