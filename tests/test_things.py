@@ -85,7 +85,7 @@ def test_nan_reading_shows_only_the_name():
 @pytest.mark.parametrize(
     "make, error, message",
     [
-        (lambda: Mark((1, 2, 3, 4)), ValueError, "at: wanted places"),
+        (lambda: Mark((1, 2, 3, 4)), ValueError, "at: wanted points of shape"),
         (lambda: Mark((1, 2, np.nan)), ValueError, "at: wanted finite"),
         (lambda: Mark((0, 0), 7), ValueError, "name: wanted a string, got 7"),
         (lambda: Mark((0, 0), "p", -1), ValueError, "radius: wanted one positive length"),

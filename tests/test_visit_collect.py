@@ -301,7 +301,7 @@ def test_tolerance_scales_with_the_reach(k):
     """Errata S0-l: a point past a border by less than 1e-12 of the reach counts as on it, at any
     size.
     """
-    behind = np.sqrt(25 - 16)  # where the inner border for l1 < l2 meets the axis
+    behind = np.sqrt(25 - 16)  # the height at which the inner border for l1 < l2 meets the axis
     for l1, l2, border, outward, condition in (
         (5, 4, (0, 0, 9), (0, 0, 1), 0),
         (5, 4, (4, 3, 0), (0, 0, -1), 1),
@@ -342,7 +342,7 @@ def test_travel_time_is_a_metric():
         assert (legs[:, None] <= legs[:, :, None] + legs + 1e-12).all()  # no detour is shorter
 
 
-def test_the_slowest_joint_decides():
+def test_the_slowest_joint_sets_the_travel_time():
     assert travel_time((0, 0, 0), (0.1, -0.4, 0.3), (1, 2, 0.5)) == pytest.approx(0.6)
     assert travel_time((0, 0, 0), (0.1, -0.4, 0.3), (0.1, 2, 0.5)) == pytest.approx(1.0)
 
@@ -414,8 +414,8 @@ def test_two_joints_are_free_where_the_arm_folds_onto_the_origin():
 
 
 def test_path_over_the_axis_still_needs_the_turn_of_joint_1():
-    """Regression: over a point on the axis the arm needs the turn of the direct path, 15.71 s; the
-    first version took 5.84 s, with joint 1 at 0.538 rad/s.
+    """Regression: on a path through a point on the axis the arm needs the turn of the direct path,
+    15.71 s; the first version took 5.84 s, with joint 1 at 0.538 rad/s.
     """
     task = make(p0=(-2, 0.01, 4), points=[(0, 0, 6.5), (2, -0.01, 4)], T=100)
     turn = np.pi / 0.2
@@ -442,8 +442,8 @@ def test_collecting_into_a_container_on_the_axis_keeps_the_speed_limit():
     quarter = np.pi / 2 / 0.2
     assert 4 * 2 * way == pytest.approx(23.36, abs=0.005)
     result = collect(task)
-    # the start takes the angle of the first point, the next two points are a quarter of a turn
-    # further each, and the last one lies beyond the stop at half a turn
+    # the start takes the angle of the first point, the next two points are each a quarter turn
+    # further on, and the last one lies beyond the stop at half a turn
     assert result.order == (0, 1, 2, 3)
     np.testing.assert_allclose(
         np.diff(result.times, prepend=0), [2 * way, *2 * [quarter + way], 3 * quarter + way]
@@ -565,7 +565,7 @@ def test_above_floor_avoids_moves_below_the_floor():
     assert result.order == (2, 1) and result.left == (0,) and "dips" not in report(brought, result)
     assert answer(task, above_floor=True) == visit(task, above_floor=True)
     assert answer(brought, above_floor=True) == result
-    # by default nothing is refused
+    # by default no move is refused
     assert answer(task) == visit(task) and answer(brought) == collect(brought)
     assert collect(brought).order == (2, 0, 1)
     only = make(p0=(6, 0, 1), points=places[:1], T=100)
@@ -693,7 +693,7 @@ def test_floor_check_finds_the_shallowest_dips():
     assert ((-1e-3 < got) & (got < -1e-8)).sum() > 3, "some dips are shallow"
 
 
-def test_lowest_takes_batches_and_free_joints():
+def test_lowest_accepts_batches_and_free_joints():
     rng = np.random.default_rng(5)
     q = drawn(rng, 11).q.reshape(3, 4, 3)
     wide = lowest(5, 4, q[:, None], q)
@@ -752,7 +752,7 @@ def test_visit_ends_when_there_is_no_time_for_the_nearest_point(T, served):
     assert visit(make(T=T)).left == tuple({0, 1} - set(served))
 
 
-def test_nothing_served_takes_no_time():
+def test_serving_nothing_takes_no_time():
     result = visit(make(T=0))
     assert result == best_visit(make(T=0)) == collect(make(T=0)) == Result((), (), (0, 1))
     assert result.time == 0.0
@@ -783,7 +783,7 @@ def test_ties_go_to_the_lowest_index():
 
 
 def test_extreme_speeds_and_times_cause_no_warning():
-    """Extreme values of a float give an answer."""
+    """Extreme float values still give an answer."""
     never = make(speeds=(5e-324,) * 3, T=1.7e308)
     assert visit(never).order == collect(never).order == best_visit(never).order == ()
     at_once = make(speeds=(1.7e308,) * 3, T=0)
@@ -919,7 +919,7 @@ def test_a_large_task_is_collected_in_seconds():
     assert re.search(r"left: [\d, ]+ and 99000 more", report(half, collect(half)))
 
 
-def test_quadratic_work_has_a_limit():
+def test_quadratic_work_is_limited():
     on_axis = many(NEAREST_LIMIT + 1, p0=(0, 0, 5))
     some = many(ABOVE_LIMIT + 1, p0=(0, 0, 5), T=1)
     for call, what in ((visit, "visit"), (collect, "collect with p0 on axis 1")):
@@ -1052,7 +1052,7 @@ def test_misfit_detects_a_wrong_inverse(k, monkeypatch):
         monkeypatch.setattr(task_module, "principal_postures", wrong)
         return faults(given)
 
-    assert off([0.5e-6, 0, 0], 3) == []  # 0.5e-6 of the reach
+    assert off([0.5e-6, 0, 0], 3) == []  # the error is 0.5e-6 of the reach
     assert off([2e-6, 0, 0], 3) == [
         f"point 3 = pi[2] (0, {9 * k:.12g}, 0) fails the check of its joint values: "
         f"off by {1.8e-5 * k:.4g} m"
@@ -1156,7 +1156,7 @@ def test_all_faults_are_listed(name, tmp_path):
     with pytest.raises(TaskError) as caught:
         read_task(path)
     assert list(caught.value.faults) == found and str(caught.value) == "; ".join(found)
-    if set(data) == set(KEYS):  # the same messages for a task made in a lesson
+    if set(data) == set(KEYS):  # a task made in Python gives the same messages
         with pytest.raises(ValueError) as caught:
             Task(*(data[key] for key in KEYS))
         assert list(caught.value.faults) == found
@@ -1436,7 +1436,7 @@ def test_results_of_other_tasks_are_refused(given):
 
 
 def test_lowest_of_a_move_matches_that_of_its_reverse():
-    """The lowest point is also not above any sample of the move, whichever way the joints turn."""
+    """No sample of the move is below its lowest point, whichever way the joints turn."""
     rng = np.random.default_rng(23)
     for l1, l2 in ((5, 4), (3, 1), (2, 2), (1, 3)):
         a, b = rng.uniform(-np.pi / 2, np.pi / 2, (2, 100, 3))

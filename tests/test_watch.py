@@ -59,7 +59,7 @@ def opened(page, view, tmp_path, curves=True):
 
 
 def anew(page):
-    """The frames of the panels and the words in one new picture."""
+    """The frames of the panels and the text in one new picture."""
     page.evaluate("frames_.length = written.length = 0")
     page.set_viewport_size({"width": 1827 - page.viewport_size["width"], "height": 647})
     ink(page, ".rk-curves")
@@ -124,8 +124,8 @@ def test_sentences_do_not_move_the_pictures(page, tmp_path):
 
 
 @pytest.mark.parametrize("count", [1, 3, 4, 6])
-def test_panels_share_the_room(page, count):
-    """The large panel gets its full height if there is room; no small one is too low."""
+def test_panels_share_the_height(page, count):
+    """The large panel gets its full height if there is room; no small panel is too low."""
     for room in (150, 210, 300, 480, 900):
         for large in range(count):
             shown = page.evaluate(
@@ -275,7 +275,7 @@ def test_row_is_written_under_the_arm(page, tmp_path):
 
 
 def test_each_mark_names_its_arm(page):
-    """Two arms share each panel; the words of a jump name its arm, and a limit is shown once."""
+    """Two arms share each panel; the label of a jump names its arm, and a limit is shown once."""
     jump = TURNING.copy()
     jump[300:, 3] += 1
     player = animate([IRB140] * 2, CLOCK, [TURNING, jump], names=["smooth", "torn"])

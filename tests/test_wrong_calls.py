@@ -779,7 +779,7 @@ def test_wrong_calls_are_refused_with_our_messages(name, page):
     right = {key: page if value is PAGE else value for key, value in right.items()}
     _, complaint = _outcome(call, right)
     assert not complaint, f"the correct call: {complaint}"
-    complaints = {}  # argument and complaint -> kinds
+    complaints = {}  # (argument, complaint) -> kinds of wrong values
     for argument in chosen or right:
         value = right[argument]
         wrong = WRONG | {kind: lambda bad=bad: bad for kind, bad in derived(value).items()}
@@ -890,8 +890,8 @@ def _foreign(error):
 
 def _against_the_rule(argument, value, error):
     """A complaint if an object() is accepted or refused with the wrong exception: TypeError is
-    correct where an object of a class is wanted, ValueError where numbers or words are wanted, and
-    either for a path, which may be both; a flag may be anything.
+    correct where an object of a class is wanted, ValueError where numbers or strings are wanted,
+    and either for a path, which may be both; a flag may be anything.
     """
     if isinstance(value, bool) or (argument == "path" and error is not None):
         return ""
@@ -934,7 +934,7 @@ def _public():
 def _methods(kind, found, prefix):
     for name in dir(kind):
         member = getattr(kind, name)
-        member = getattr(member, "__func__", member)  # for a class method
+        member = getattr(member, "__func__", member)  # the function of a class method
         ours = getattr(member, "__module__", None) or ""
         public = name[0] != "_" or name in OPERATORS
         if public and ours.startswith("robokin") and inspect.isfunction(member):

@@ -59,15 +59,15 @@ def posed(targets: Targets) -> dict[str, Transform]:
 def tracks(
     arm: Any, t: Any, q: Any, lead: tuple[int, ...], names: Any
 ) -> tuple[list[Recording], list[str]]:
-    """Return a recording for each arm, with its motions along one axis (C, N, n), and the names.
-    The caller may pass one arm, several arms, or recordings.
+    """Return a recording for each arm, with its motions along one axis (C, N, n), and the names of
+    the arms. The caller may pass one arm, several arms, or recordings.
     """
     several = isinstance(arm, (list, tuple))
     given = list(arm) if several else [arm]
     recorded = bool(given) and all(isinstance(one, Recording) for one in given)
     arms = [one.arm if recorded else instance(one, Arm, "arm") for one in given]
     if names is not None and not several:
-        raise ValueError("names: wanted only with a list of arms; one arm has its own name")
+        raise ValueError("names: wanted only with a list of arms; a single arm has its own name")
     if recorded and (t is not None or q is not None):
         raise ValueError("t and q: not wanted with recordings, which have their own")
     motions = [q] if not several else q if not recorded else [None] * len(arms)
@@ -149,7 +149,7 @@ def switch(value: Any) -> Switch | None:
         return None
     label, values = _pair(value, "switch", "words")
     if not isinstance(values, (list, tuple)) or len(values) < 2:
-        raise ValueError(f"switch: wanted a list of at least two words, got {short(values)}")
+        raise ValueError(f"switch: wanted a list of at least two strings, got {short(values)}")
     return {"label": label, "values": [plain(word, "switch") for word in values]}
 
 

@@ -1,8 +1,8 @@
 """The camera of figures and pages: its position, and the points of arms and things that it must
 see.
 
-`project` returns metres in the picture. `scene.Scene._fit` and matplotlib convert them to pixels;
-on a page, `js/camera.js` does.
+`project` returns picture coordinates in metres. `scene.Scene._fit` and matplotlib convert them to
+pixels; on a page, `js/camera.js` does.
 """
 
 from collections.abc import Iterable, Sequence

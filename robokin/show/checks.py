@@ -10,7 +10,7 @@ from .._arrays import ArrayLike, Floats
 from .._validate import floats, instance, short, text
 from ..arms.arm import Arm
 
-HORIZON = 1e9  # metres: nothing in a picture is farther away
+HORIZON = 1e9  # metres: the largest coordinate or length in a picture
 LONGEST = 2000  # maximum number of characters in a title or a name
 
 
@@ -65,7 +65,7 @@ def sentence(title: str | None) -> list[str]:
 def samples(
     arm: Arm, values: ArrayLike | None, name: str = "q", count: int | None = None
 ) -> Floats:
-    """Values (samples, n) for an arm of n joints. ValueError: another shape, or another count."""
+    """Values (samples, n) for an arm of n joints. ValueError: wrong shape or number of samples."""
     found = floats(values, name, len(instance(arm, Arm, "arm").links), finite=False)
     if found.ndim == 1:
         found = found[None]

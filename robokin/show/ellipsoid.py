@@ -69,7 +69,7 @@ def plot_velocity_ellipsoid(
         _ellipsoid(scene, tool[i], drawn * axes[i])
         for k, way in enumerate(_ways(axes[i]).T):
             tip = tool[i] + drawn * axes[i, :, k]
-            seen_as = np.linalg.norm(scene.project(way))  # zero if it points at the camera
+            seen_as = np.linalg.norm(scene.project(way))  # zero if `way` points at the camera
             if seen_as > 1e-9 and lengths[i, k] < longest / 20:
                 tip = tool[i] + MARK * size * way
                 ends = [tool[i] - MARK * size * way, tip]
@@ -110,7 +110,7 @@ def _ellipsoid(scene: Scene, centre: Floats, axes: Floats) -> None:
     ways, lengths, _ = np.linalg.svd(flat, full_matrices=False)
     ring = (ways * lengths) @ np.stack([np.cos(ROUND), np.sin(ROUND)])
     outline = (scene.project(centre)[:, None] + ring).T
-    scene.drawn.append((outline, 1))  # so that labels avoid it
+    scene.drawn.append((outline, 1))  # so that labels avoid the outline
     scene.ax.add_patch(
         Polygon(
             outline,

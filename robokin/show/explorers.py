@@ -162,7 +162,7 @@ def target_explorer(arm: ClosedFormArm | ThreeLeverArm) -> "Explorer":
             "verdict",
             *(f"q{i + 1} {unit['name']}" for i, unit in enumerate(units(arm))),
             "distance from singularity",
-            # angles only: a stroke is the same in every row
+            # only angles count: a stroke is the same in every row
             "travel, °" if whole else f"travel of {', '.join(f'q{j + 1}' for j in turning)}, °",
         ],
         "turning": turning.tolist(),

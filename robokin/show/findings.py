@@ -96,7 +96,7 @@ def rows(arm: Arm, q: Floats) -> list[list[tuple[int, str]]] | None:
         return None
     solved = arm.ik(arm.fk(q))  # (motions, samples, rows, n)
     away = abs(unwrapped(arm, solved, q[..., None, :]) - q[..., None, :]).max(axis=-1)
-    belongs = away < 1e-6  # False for a NaN
+    belongs = away < 1e-6  # False for NaN
     found = []
     for motion in belongs:
         runs: list[tuple[int, str]] = []

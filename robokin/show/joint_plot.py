@@ -24,7 +24,7 @@ from .panels import draw_panel, lay_out, without_spikes
 from .plots import Figure
 from .scene import number
 
-SAMPLES = 241  # in the page, including both ends
+SAMPLES = 241  # samples in the page, including both ends
 ALL: Watch = {"panel": 0, "joints": None}
 
 
@@ -152,7 +152,7 @@ def curves_page(
         if kind == "v" and limits is not None:
             limits = limits[:, None] * [-1, 1]
         panel = joint_panel([arm], [values], unit, "qva".index(kind), ALL)
-        last = order == len(kinds) - 1  # the words of a jump in speed are in the last panel
+        last = order == len(kinds) - 1  # the text for a jump in speed is in the last panel
         panels.append(
             {
                 **panel,
@@ -184,8 +184,8 @@ def curves_page(
 
 
 def _in_view(values: Floats, arm: Arm, panel: PagePanel) -> Floats:
-    """The values (samples, n), without what is far outside the panel: a spike of thousands would
-    make the steps of `packed` coarse.
+    """The values (samples, n), clipped far outside the panel: a spike of thousands would make the
+    steps of `packed` coarse.
     """
     ends = []
     for shifts in arm.prismatic:

@@ -108,7 +108,7 @@ def _wake(place: str, answer: Callable[[Question], Answer]) -> None:
         try:
             content, buffers = split_arrays(answer(message["question"]))
             inert(content)
-        except Exception as error:  # the view shows it, since this thread has no visible output
+        except Exception as error:  # shown by the view, since output of this thread is not visible
             content, buffers = {"error": f"{type(error).__name__}: {error}"}, []
         model.send({"to": message["to"], "n": message["n"], "answer": content}, buffers)
 

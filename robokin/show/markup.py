@@ -37,7 +37,7 @@ def still_image(png: bytes, alt: str) -> str:
 
 def figure_image(png: bytes, alt: str, width: int, height: int, least: int) -> str:
     """Return a figure of `width` x `height` pixels that follows the theme and the width of the
-    page. It is never narrower than `least` pixels: then it scrolls.
+    page. It is never narrower than `least` pixels; on a narrower page it scrolls.
     """
     image = base64.b64encode(png).decode()
     return (

@@ -32,7 +32,7 @@ class Slider(TypedDict):
 
 
 class Switch(TypedDict):
-    """A menu that selects a motion by a word."""
+    """A menu that selects a motion: its label and its options."""
 
     label: str
     values: list[str]
@@ -160,7 +160,7 @@ class Page(TypedDict):
 
 class CurvePanel(PagePanel):
     """A panel of `PageCurves`: the values of all joints, the [lower, upper] limit of each, and the
-    [time, words] to mark.
+    [time, label] of each mark.
     """
 
     values: Packed
@@ -201,7 +201,7 @@ class Control(TypedDict):
 
 
 class PageUnit(Unit):
-    """The unit of an explorer, with its name in Python code."""
+    """The unit of a joint or of lengths, with its name in Python code."""
 
     code: str
 
@@ -227,7 +227,7 @@ class FactRow(TypedDict):
     decimals: int
 
 
-Law: TypeAlias = Literal["quintic", "trapezoidal", "linear"]  # the names in motion.js
+Law: TypeAlias = Literal["quintic", "trapezoidal", "linear"]  # named as in motion.js
 Corner: TypeAlias = Literal["parabola", "quintic"]
 
 

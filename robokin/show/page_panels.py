@@ -26,7 +26,7 @@ def joint_panel(
     shown.
     """
     per = ("", "/s", "/s²")[order]
-    # two arrays (motions, n) for each arm
+    # for each arm, the least and greatest values: two arrays (motions, n)
     ends = [(np.fmin.reduce(c, axis=1), np.fmax.reduce(c, axis=1)) for c in curves]
     ranges = {}
     for key in ("turn", "shift"):
@@ -40,7 +40,7 @@ def joint_panel(
                 float(np.nan_to_num(np.fmax.reduce(np.concatenate(greatest, axis=1), axis=None))),
             )
     axes: dict[str, Axis] = {}
-    seen = {}  # lowest and highest tick
+    seen = {}  # axis -> its lowest and highest tick
     for key, chosen in zip(ranges, scales(list(ranges.values())), strict=True):
         axes[key] = {"unit": ("°" if key == "turn" else unit["name"]) + per, "scale": chosen}
         low, step, count, _ = chosen

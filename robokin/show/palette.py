@@ -35,7 +35,7 @@ FONT = "system-ui,-apple-system,'Segoe UI','Liberation Sans',sans-serif"  # the 
 # Colours of pages: name -> (light, dark), six digits each.
 PAGE: Mapping[str, tuple[str, str]] = MappingProxyType(
     {
-        "paper": ("#FFFFFF", "#1B2026"),  # the background, and the seams between lines
+        "paper": ("#FFFFFF", "#1B2026"),  # the background, and the outlines that separate lines
         "ink": ("#1F2933", "#E4E9EE"),
         "soft": ("#5F6B76", "#A3AFBA"),
         "line": ("#C9D0D6", "#56616C"),
@@ -87,7 +87,7 @@ PAGE: Mapping[str, tuple[str, str]] = MappingProxyType(
 STILL = {
     "still": ("none", "invert(1) hue-rotate(180deg)"),
     "blend": ("multiply", "screen"),  # so that white is the colour of the page
-    "shade": ("#0005", "#fff5"),  # at an edge beyond which a figure goes on
+    "shade": ("#0005", "#fff5"),  # at an edge beyond which a figure continues
 }
 
 

@@ -211,7 +211,7 @@ def _view(values: Floats, kind: str) -> tuple[float, float]:
     low, high = (finite.min(), finite.max()) if len(finite) else (0.0, 0.0)
     if kind != "q":
         low, high = min(low, 0.0), max(high, 0.0)
-    least = 1.0 if kind == "q" else 0.01  # degrees or mm; otherwise per second
+    least = 1.0 if kind == "q" else 0.01  # degrees or mm for q, otherwise the units of v or a
     if high - low < least:
         low, high = (low + high - least) / 2, (low + high + least) / 2
     margin = 0.08 * (high - low)

@@ -60,11 +60,12 @@ WORDS: Mapping[str, str] = {
 def plan_explorer(
     arm: ThreeLeverArm, posture: ArrayLike, target: ArrayLike, obstacle: ArrayLike
 ) -> Live:
-    """Show the start K, the target K1 and the obstacle H to drag, and the distance that all levers
-    must keep from H (a seventh of a lever at first). A kernel answers every move with the result of
-    `plan`: the path and the reason for it, the area that the levers sweep, and where they come
-    nearest to H; or with the result of a motion by two via points or of the direct motion. The
-    search can be played in the cube of postures, the motion in the plane.
+    """Show the start K, the target K1 and the obstacle H, which the reader can drag, and the
+    distance that all levers must keep from H (a seventh of a lever at first). A kernel answers
+    every move with the result of `plan`: the path and the reason for it, the area that the
+    levers sweep, and where they come nearest to H; or with the result of a motion through two via
+    points or of the direct motion. The search can be played in the cube of postures, the motion in
+    the plane.
 
     posture (3,) in radians is the start; target and obstacle (2,) are in metres. ValueError:
     arguments that `plan` refuses. TypeError: an arm without three levers.
@@ -197,7 +198,7 @@ def _page(arm: ThreeLeverArm, first: Question, known: Plan, summary: str) -> Pla
     name, unit = length_unit(size)
     marks = [Mark(first["target"]), Mark(first["obstacle"], radius=first["distance"])]
     scene = scene_data([arm], [_moments(np.array(known.path))[None]], marks, size, grows=True)
-    scene["things"] = []  # the page adds the things
+    scene["things"] = []  # the script of the page adds them
     L = arm.lever
     return {
         "kind": "plan",

@@ -80,7 +80,7 @@ def figure(alt: str, width: float = 9, height: float = 4) -> Figure:
     above 100.
     """
     if not (isinstance(alt, str) and alt.strip()):
-        raise ValueError(f"alt: wanted words that say what the figure shows, got {short(alt)}")
+        raise ValueError(f"alt: wanted text that says what the figure shows, got {short(alt)}")
     sizes = [positive(width, "width", INCHES), positive(height, "height", INCHES)]
     if max(sizes) > 100:
         raise ValueError(f"width and height: wanted at most 100 inches, got {max(sizes):g}")

@@ -249,7 +249,7 @@ def _scene(arm: Arm, task: Task) -> PageScene:
     around = out * np.stack([np.cos(ring), np.sin(ring), 0 * ring], axis=-1)
     marks = [Mark(p) for p in (*around, *places)]
     scene = scene_data([arm], [task.q[None, :1]], marks, extent(arm), solid=True, grows=True)
-    scene["things"] = []  # the page adds the things
+    scene["things"] = []  # the script of the page adds them
     scene["view"] = rounded([best_view(places, None)[0], 40 * deg], 4)
     return scene
 

@@ -12,12 +12,13 @@ import {triad} from "./triad.js";
 
 /** @typedef {ReturnType<typeof stood>} Stood  an arm in its place, and the pen that draws it */
 /**
- * A straight piece of an arm; `rod`: whether it is in a prismatic joint.
+ * A straight piece of an arm; `rod`: whether it is part of a prismatic joint.
  * @typedef {[from: Point, to: Point, rod: boolean]} Limb
  */
 
 /**
- * An arm at its base: a pen with its own coordinates, the data of Shown, its frames and limbs.
+ * An arm that is ready to draw: a pen in the coordinates of its base, the data of Shown, its frames
+ * and limbs.
  * @param {Pen} pen
  * @param {Shown} arm
  * @param {Point} [base]
@@ -57,7 +58,7 @@ export function drawRods({g, cam, chain, joints, thick, scene, rods, past = []},
 }
 
 /**
- * Draws the arm, its whole path below it, and the part of the path already passed above it.
+ * Draws the arm, below it the whole path, and above it the part of the path already travelled.
  * @param {Stood} one
  */
 export function drawStood(one) {

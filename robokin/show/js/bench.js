@@ -18,7 +18,7 @@ export class Bench {
   constructor(data) {
     this.data = data;
     this.state = {...data.opening, sign: 1};
-    /** `time` of the run, s. If `shown`, the picture shows the run at that time. */
+    /** `time`: the time of the run in s. If `shown`, the picture shows the run at that time. */
     this.clock = {time: 0, playing: false, shown: false};
     this.motor = this.built();
     this.live = atRest(this.motor, 0);
@@ -94,7 +94,7 @@ export class Bench {
     return this.motor.load > this.motor.torque * Math.sqrt(x * x + y * y);
   }
 
-  /** Reacts to a changed choice; with `other`, to another motor, which starts from rest. */
+  /** Reacts to a changed choice; if `other`, the motor has changed and starts from rest. */
   change(other = false) {
     this.motor = this.built();
     this.found = null;
@@ -153,7 +153,7 @@ export class Bench {
     return this.since < LONG;
   }
 
-  /** Stops the rotor when its remaining motion is invisible. */
+  /** Stops the rotor when its remaining motion is too small to see. */
   settle() {
     const period = (2 * Math.PI) / this.motor.periods,
       rest = resting(this.motor, this.sent),

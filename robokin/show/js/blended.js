@@ -15,9 +15,9 @@ import {record} from "./recorded.js";
 const LAWS = {quintic, trapezoidal, linear};
 
 /**
- * The motion for the current settings: the findings of `record`, times, joint values, places of the
- * tool, the distance from via; the samples after which its curves break, the pose at a time, and
- * the times at which an acceleration may jump.
+ * The motion for the current settings: the findings of `record`, times, joint values, positions
+ * of the tool, the distance from via; the samples after which its curves break, the pose at a time,
+ * and the times at which an acceleration may jump.
  * @param {MotionData} data
  * @param {Asked} state
  */
@@ -105,7 +105,7 @@ function passing({unit}, via, poseAt, t, missing) {
     far = places.map(place => apart(place, via.place));
   const steps = far.flatMap((_, i) => (i && !missing[i] && !missing[i - 1] ? [i] : []));
   let least = Math.min(...steps.flatMap(i => [far[i - 1], far[i]]));
-  // only on steps as long as these can the path come nearer than at the samples
+  // only these steps are long enough for the path to come nearer to via than at the samples
   for (const i of steps.filter(
     k => Math.min(far[k - 1], far[k]) - apart(places[k], places[k - 1]) < least,
   )) {

@@ -165,7 +165,7 @@ function excess(arm, q, j) {
 }
 
 /**
- * Says in one sentence whether a row of `ik` is usable, and if not, why, in Python's words.
+ * Says in one sentence whether a row of `ik` is usable, and if not, why, worded as in Python.
  * @param {ClosedFormArm} arm
  * @param {PagePose} pose
  * @param {number} row

@@ -43,7 +43,8 @@ export function clockRow(names = null) {
 }
 
 /**
- * pass(now): advances the time; set(time): stops at a time; tell(): shows the time on the page.
+ * pass(now): advances the time; set(time): goes to this time and stops; tell(): shows the time on
+ * the page.
  * @param {ClockParts} parts
  * @param {HTMLElement} frame  the element in which the Space key plays and pauses
  * @param {{time: number, playing: boolean}} state

@@ -8,7 +8,7 @@ import {dashes, drawPanel, FAINT, strength} from "./panel.js";
 /** @import {Panel, Place, Times} from "./panel.js" */
 
 /**
- * Panels over one time axis. `large`: the index of the one to watch; `names`: the names of the
+ * Panels with a common time axis. `large`: the index of the large one; `names`: the names of the
  * arms, if there are several.
  * @typedef {{panels: Panel[], large: number, names: string[]}} Curves
  */
@@ -92,7 +92,7 @@ export function heights(count, large, room) {
 }
 
 /**
- * Writes the times below the panels; the last one has the unit.
+ * Writes the times below the panels, with the unit after the last time.
  * @param {Context} g
  * @param {Scale} ticks
  * @param {[first: number, last: number]} span

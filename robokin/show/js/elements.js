@@ -43,7 +43,7 @@ export const control = (tag, attributes, ...children) =>
   element(tag, {"data-lm-suppress-shortcuts": "true", ...attributes}, ...children);
 
 /**
- * A menu. Its value is the index of the chosen text.
+ * A menu. Its value is the index of the chosen option.
  * @param {string} name
  * @param {string[]} texts
  */

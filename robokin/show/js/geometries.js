@@ -115,7 +115,7 @@ function elbowRows({geometry: {elbow: e, turns}, tolerances}, [x, y, z]) {
 const bend = (e, q) => e.fore_angle - e.upper_angle + e.sign3 * q[2];
 
 /**
- * The distance of the point in front of axis 1.
+ * The distance of the point from axis 1, positive in front of the axis.
  * @param {ElbowData} e
  * @param {number[]} q
  */

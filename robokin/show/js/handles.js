@@ -74,7 +74,7 @@ export function handleLayer(canvas, camera, hold, changed) {
       handles = next.map(handle => ({...handle, node: button(handle, hand), shift: [0, 0]}));
       layer.replaceChildren(...handles.map(handle => handle.node));
     },
-    /** Puts the handles in their places; to be called after every picture. */
+    /** Moves the handles to their places; call it after every redraw. */
     place() {
       /** @type {Pixel[]} */
       const taken = [];
@@ -163,7 +163,7 @@ function placed(handle, camera, taken, canvas) {
 const STEPS = {ArrowLeft: [-1, 0], ArrowRight: [1, 0], ArrowUp: [0, 1], ArrowDown: [0, -1]};
 
 /**
- * A place that is `room` pixels away from the taken ones.
+ * A place at least `room` pixels away from the places already taken.
  * @param {Pixel} place
  * @param {Pixel[]} taken
  * @param {number} room
@@ -264,7 +264,7 @@ export function gripOf(chain, q, i, camera) {
       sunk = dot(way, turned(joints[i], chain[i].axis));
     if (Math.sqrt(dot(way, way) - sunk * sunk) > reach)
       return plus(from, plus(bend, from, -1), share);
-    // nearer to the start of the next link, whose own joint has its ring at 0.6
+    // nearer to the start of the next link, since the handle of its own joint is at 0.6
     if (dot(way, way) > 1e-12) [from, share] = [bend, 0.3];
   }
   return plus(here, turned(moved[i], squareTo(chain[i].axis)[0]), reach * [0.6, 0.9, 1.2][i % 3]);

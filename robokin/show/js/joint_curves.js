@@ -1,5 +1,5 @@
-// The joint curves of one motion, as `plot_joints` shows them: panels without an arm. page.py has
-// their data.
+// The joint curves of one motion, as `plot_joints` shows them: panels without a picture of the arm.
+// page.py has their data.
 
 import {replaceStill} from "./canvas.js";
 import {curvesView} from "./curves.js";

@@ -237,7 +237,7 @@ function pointHandle({words, unit}, state, home) {
 }
 
 /**
- * The lines of Python that find the same posture.
+ * The Python code that finds the same posture.
  * @param {LeversExplorer} data
  * @param {State} state
  */
@@ -249,7 +249,7 @@ const pythonOf = ({code, unit}, {place, alpha, arm}) =>
   });
 
 /**
- * Draws the sum S of the absolute angle changes over the free angle.
+ * Draws the sum S of the absolute angle changes against the free angle.
  * @param {HTMLCanvasElement} canvas
  * @param {Record<string, string>} says
  * @param {?Costs} costs

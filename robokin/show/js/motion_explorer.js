@@ -273,7 +273,7 @@ function notes({arm, words, units}, {q, v, missing, jumps}) {
 }
 
 /**
- * The lines of Python that make the same motion.
+ * The Python code that makes the same motion.
  * @param {MotionData} data
  * @param {Asked} state
  */

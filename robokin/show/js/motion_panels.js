@@ -61,7 +61,7 @@ function nearOf(limits, values, line) {
     .map(side => [line, side]);
 }
 
-/** The least and greatest value of some curves. @param {Float64Array[]} curves */
+/** The least and greatest values of the curves. @param {Float64Array[]} curves */
 function ends(curves) {
   let [low, high] = [Infinity, -Infinity];
   for (const curve of curves)

@@ -76,7 +76,7 @@ function armIn(motion, {name, chain, gaps, via, rows}, recorded, samples, unit) 
   };
 }
 
-/** The place of the tool. @type {(chain: PageArm["chain"], q: number[]) => ?Point} */
+/** The position of the tool. @type {(chain: PageArm["chain"], q: number[]) => ?Point} */
 export const tipOf = (chain, q) => (q.every(Number.isFinite) ? origin(fk(chain, q)) : null);
 /** @type {(places: (?Point)[], gaps: Set<number>) => (?Point)[]} */
 export const broken = (places, gaps) => places.flatMap((p, i) => (gaps.has(i) ? [p, null] : [p]));
@@ -123,7 +123,7 @@ function jointPanel(data, order, motion, opening, recordings) {
 }
 
 /**
- * The limits without those that an earlier arm has, too.
+ * The limits, except those that an earlier arm also has.
  * @param {Line[]} lines
  * @param {Panel["near"]} limits
  * @returns {Panel["near"]}

@@ -65,7 +65,7 @@ function corners(i, n, sent, t) {
 }
 
 /**
- * Draws horizontal lines at some values, where there is room for their numbers.
+ * Draws horizontal lines at the given values, where there is room for their numbers.
  * @param {Panel} panel
  * @param {Place} y
  * @param {number[]} values

@@ -83,7 +83,7 @@ function motorStage(root, data, bench) {
       bench.hold(false);
       stage.changed();
     };
-  // the keyboard moves the rotor, too
+  // the keyboard also moves the rotor
   layer.addEventListener("keyup", letGo);
   layer.addEventListener("focusout", letGo);
   return stage;
@@ -126,7 +126,7 @@ function rotorHandle(bench, says) {
 }
 
 /**
- * The clock of a run. It shows the run as soon as it plays or is set.
+ * The clock of a run. The picture shows the run as soon as the clock plays or is set.
  * @param {Stage} stage
  * @param {Bench} bench
  * @param {PageMotors["words"]} says
@@ -148,8 +148,8 @@ function runWatch(stage, bench, says) {
 }
 
 /**
- * Puts below the picture: buttons for single pulses, the clock of a run, and the state of the
- * rotor.
+ * Adds buttons for single pulses, the clock of a run, and the state of the rotor below the
+ * picture.
  * @param {Stage} stage
  * @param {Bench} bench
  * @param {HTMLElement} clock

@@ -1,4 +1,4 @@
-// The sentences and the code of the motor explorer about a motor and a run.
+// The motor explorer's sentences and Python code for a motor and a run.
 
 import {fill} from "./blanks.js";
 import {number} from "./canvas.js";
@@ -89,7 +89,7 @@ export function standing(bench, says) {
 }
 
 /**
- * The lines of Python that make the same run.
+ * The Python code that makes the same run.
  * @param {Bench} bench
  * @param {PageMotors} data
  */

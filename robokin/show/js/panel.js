@@ -45,8 +45,8 @@ import {lineColor, panelWords, shade} from "./panel_words.js";
 /** @typedef {(value: number) => number} Place  maps a time or a value to a place on the canvas */
 /** @typedef {[left: number, right: number, top: number, bottom: number]} Sides */
 /**
- * What a panel is drawn on: the canvas, the dashes of the joints' lines, the times and their
- * places, and the sides of the panel; and whether it shows several arms.
+ * The data for drawing a panel: the canvas, the dashes of the joints' lines, the times and their
+ * places, the sides of the panel, and whether it shows several arms.
  * @typedef {{
  *   g: Context, patterns: number[][], times: Times, x: Place, sides: Sides, several: boolean,
  * }} Ground
@@ -56,7 +56,7 @@ export const FAINT = 0.28; // opacity of a curve that is not to be watched
 const SMALL = 60; // px: a panel of less height shows only the ends of its scale, and no text
 const PAST = 0.002; // an excess over a limit by no more than this is rounding
 
-/** The width of the lines of an arm. @type {(arm: number) => number} */
+/** The line width for an arm. @type {(arm: number) => number} */
 export const strength = arm => [2.6, 1.4, 0.7][Math.min(arm, 2)];
 
 /** @type {(patterns: number[][], j: number, width: number) => number[]} */
@@ -113,7 +113,7 @@ export function drawPanel(ground, panel, ticks, now) {
 }
 
 /**
- * Draws the curves, those to watch above the others.
+ * Draws the curves, with the faint ones below the others.
  * @param {Ground} ground
  * @param {Line[]} lines
  * @param {Place[]} ys

@@ -12,7 +12,7 @@ export const lineColor = ({joint}) => (joint < 0 ? colors.ink : jointColor(joint
 export const shade = color => `color-mix(in srgb, ${color} 60%, ${colors.ink})`;
 
 /**
- * The text of a panel, placed once for each size and theme, not again in every picture.
+ * The text of a panel, placed once for each size and theme, not again at every redraw.
  * @param {Context} g
  * @param {Panel} panel
  * @param {Place[]} ys  the height of a value, for each line

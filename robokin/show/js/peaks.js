@@ -69,8 +69,8 @@ export function peaks(posture, ends, sizes, near) {
 }
 
 /**
- * Speeds and accelerations at t: those of the polynomials through five postures, the middle one
- * between `low` and `high`.
+ * Speeds and accelerations at t, from the polynomials through five postures. The middle posture is
+ * at t or, if t is outside `low` to `high`, at the nearer of the two.
  * @param {(t: number) => number[]} posture
  * @param {number} t
  * @param {number} low

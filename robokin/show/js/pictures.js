@@ -37,12 +37,12 @@ export function pictures(root, canvases, draw) {
       for (const one of media) one.addEventListener("change", turned);
       ask();
     } else {
-      // `root` is removed; if it is inserted again, its canvases get a size again
+      // `root` has been removed; if it is inserted again, its canvases get a size again
       theme.disconnect();
       for (const one of media) one.removeEventListener("change", turned);
     }
   }
-  // When observed again, a canvas is reported as soon as it has a size, even its previous one.
+  // When observed again, a canvas is reported once it has a size, even if its size is unchanged.
   function watch() {
     for (const canvas of canvases) {
       sizes.unobserve(canvas);

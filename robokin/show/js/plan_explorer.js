@@ -50,7 +50,7 @@ import {point} from "./mark.js";
 /** @typedef {ReturnType<typeof read>} Shown  an answer as it is drawn */
 /** @typedef {{q: number[], target: Point, obstacle: Point, distance: number, way: number}} State */
 /**
- * The state shown: the step of the search, the moment of the motion.
+ * The state shown: the step of the search and the time in the motion.
  * @typedef {object} Now
  * @property {Shown} shown
  * @property {number} wave
@@ -295,7 +295,7 @@ function marks({arm, words: says, unit}, state) {
         state[key] = p;
       },
     );
-  // within the arm's reach, the start follows with the least movement
+  // within the arm's reach, the start posture follows the pointer with the least movement
   /** @param {Point} place */
   const follow = place => {
     const q = least(arm, {place}, state.q);

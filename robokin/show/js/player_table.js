@@ -23,7 +23,7 @@ export function numberTable(data, whose, motion) {
 }
 
 /**
- * The rows of an arm.
+ * The table rows for an arm.
  * @param {Page} data
  * @param {PageArm} arm
  * @param {string} whose

@@ -211,7 +211,7 @@ const valid = (data, choice) =>
     : choice !== "" && choice.length < 31 && Number.isFinite(+choice);
 
 /**
- * The index of the chosen answer; for a typed number an answer near it, preferably the right one;
+ * The index of the chosen answer; for a typed number an answer near it, preferably the correct one;
  * -1 if there is none.
  * @param {PageQuestion} data
  * @param {string} choice
@@ -256,7 +256,7 @@ function told(data, at, right) {
 const coded = text => text.split("`").map((part, k) => (k % 2 ? element("code", {}, part) : part));
 
 /**
- * The line for a report: the first guess of each prediction in the lab of `own`.
+ * The line of code that reports the first guess of each prediction in the same lab as `own`.
  * @param {Made[]} made
  * @param {string} own
  */
@@ -297,7 +297,7 @@ function memoryOf(root) {
   const path = () => {
     /** @type {?HTMLElement} */
     const tab = panel && document.querySelector(`.lm-TabBar-tab[data-id="${panel.id}"]`);
-    // "Name: x.ipynb", "Path: labs/x.ipynb", in the reader's language
+    // lines of the title: "Name: x.ipynb", "Path: labs/x.ipynb", in the reader's language
     const lines = tab && [...tab.title.matchAll(/^[^:\uff1a]*[:\uff1a]\s*(.+\.ipynb)$/gm)];
     return lines && (lines.at(-1)?.[1] ?? "");
   };

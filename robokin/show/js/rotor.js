@@ -60,7 +60,7 @@ const pulls = motor => motor.currents.map(row => pull(motor, row));
 
 /** The greatest load that every row can hold. @param {Motor} motor */
 export const holdingTorque = motor => motor.torque * Math.min(...pulls(motor).map(strength));
-/** The greatest load that the motor moves from every row to the next. @param {Motor} motor */
+/** The greatest load that the motor can move from every row to the next. @param {Motor} motor */
 export function startingTorque(motor) {
   const all = pulls(motor);
   return (
@@ -179,7 +179,7 @@ export function advance(motor, state, sent, seconds, each = null, longest = rhyt
 }
 
 /**
- * A run from rest in row 0: with pulses of one sign at these times, until the rotor rests again.
+ * A run from rest in row 0: with pulses of one sign at these times, until the rotor is at rest.
  * @param {Motor} motor
  * @param {number[]} times
  * @param {number} sign

@@ -38,7 +38,7 @@ import {compass} from "./triad.js";
  */
 /** @typedef {ReturnType<typeof surroundings>} Space  the fixed surroundings of a scene */
 /**
- * What a picture is drawn with: canvas, camera, scene and surroundings.
+ * The data for drawing a picture: canvas, camera, scene and surroundings.
  * @typedef {{g: Context, cam: Camera, scene: Scene, space: Space}} Pen
  */
 /**
@@ -65,7 +65,7 @@ import {compass} from "./triad.js";
 const KINDS = kinds;
 
 /**
- * The scene of a page, still without things.
+ * The scene of a page before things are added.
  * @param {{scene: PageScene, unit: Unit}} page
  * @returns {Scene}
  */
@@ -161,7 +161,7 @@ function arranged(scene, space, count, width, height) {
 }
 
 /**
- * The part of a cell without the room for text at its edges: names above, the scale below.
+ * The part of a cell inside the margins for text: names above, the scale below.
  * @param {Box} cell
  * @returns {Box}
  */

@@ -141,7 +141,7 @@ function partsOf({kind, title: text, meant}, canvas, layer) {
 }
 
 /**
- * A text whose first sentence is shown; a click opens the others.
+ * A text of which only the first sentence is shown; a click reveals the rest.
  * @param {string} text
  */
 function folded(text) {
@@ -152,7 +152,7 @@ function folded(text) {
 }
 
 /**
- * Puts `more` after `node`, together in a box.
+ * Wraps `node` in a box and puts `more` after it, in the same box.
  * @param {HTMLElement} node
  * @param {...HTMLElement} more
  */

@@ -166,7 +166,7 @@ const cells = ({arm, words, units}, {rows, exists, inside, travel}) =>
   ]);
 
 /**
- * Puts the target into the scene: a frame, or a point.
+ * Puts the target into the scene as a frame or a point.
  * @param {Stage} stage
  * @param {State} state
  * @param {string} name

@@ -6,7 +6,7 @@ import {dot, origin, plus} from "./kinematics.js";
 /** @import {Camera} from "./camera.js" */
 /** @import {Box, Context, Pixel} from "./canvas.js" */
 
-/** The axes of a frame; their colours have the same names. */
+/** The names of the axes of a frame, and of their colours. */
 export const AXES = /** @type {const} */ (["x", "y", "z"]);
 
 /**

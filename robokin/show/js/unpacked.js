@@ -1,4 +1,4 @@
-// From the compact numbers of a page (page.py: Packed) to numbers.
+// Unpacks the compact numbers of a page (page.py: Packed).
 
 /** @import {Packed} from "./page.js" */
 

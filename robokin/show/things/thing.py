@@ -140,7 +140,7 @@ def as_place(value: ArrayLike | Way, name: str) -> Way:
     if given.ndim > 1 and given.shape[-1] == 3:
         return moving(in_sight(given, name), name, (3,))
     if given.shape not in ((2,), (3,)):
-        raise ValueError(f"{name}: wanted places (x, y, z), got shape {given.shape}")
+        raise ValueError(f"{name}: wanted points of shape (..., 3), got shape {given.shape}")
     point = in_sight(np.append(floats(given, name), [0.0] * (3 - len(given))), name)
     return Way(frozen(point[None, None]), (), name, (3,))
 
