@@ -127,7 +127,7 @@ def test_speed_jump_does_not_depend_on_the_step(count, tolerance):
     assert np.allclose(jump.by, CORNER_JUMP, atol=tolerance)
 
 
-def test_the_speeds_on_both_sides_of_a_corner_are_those_of_the_two_pieces():
+def test_speeds_on_both_sides_of_a_corner_match_the_two_pieces():
     # Two parabolas meet at t = 1.5 with different slopes, so the speeds are known exactly.
     t = np.linspace(0, 3, 301)
     u = t - 1.5
@@ -155,7 +155,7 @@ def test_a_corner_between_two_samples_is_found_between_them():
 
 @pytest.mark.parametrize("share", [0.02, 0.3, 0.7, 0.98])
 @pytest.mark.parametrize("sample", [4, 50, 94])
-def test_faint_part_of_a_corner_belongs_to_it(share, sample):
+def test_small_speed_change_next_to_a_corner_is_not_a_separate_jump(share, sample):
     """A corner shortly after (or before) a sample changes the speeds of two pairs of intervals, one
     of them by 2 % of the jump: too little for a separate jump.
     """
@@ -349,7 +349,7 @@ def test_outlying_sample_has_a_jump_on_both_sides():
     np.testing.assert_allclose([jump.by[0] for jump in found.leaps], [0.3, -0.3], atol=0.02)
 
 
-def test_a_jump_where_the_speed_jumps_too_is_a_jump_in_position():
+def test_position_jump_is_found_where_the_speed_jumps_too():
     t = np.linspace(0, 3, 301)
     q = np.stack([np.where(t < 1.505, 0.2 * t, 0.5 - 0.3 * t), 0 * t], axis=-1)
     [leap] = record(two_link(1, 1), t, q).leaps
@@ -450,7 +450,7 @@ def test_jump_at_an_end_is_found(first):
 # --- Limits and greatest values -------------------------------------------------------------------
 
 
-def test_excess_is_how_far_each_sample_is_past_its_limit():
+def test_excess_is_how_far_each_joint_value_is_past_its_limit():
     q = wave(size=2.5)
     q[40:50] = np.nan
     found = record(IRB140, UNEVEN, q)
@@ -631,6 +631,6 @@ def test_continuous_turning_causes_no_warning(recwarn):
         (lambda q: replace(record(IRB140, T, q), leaps=[]), TypeError, "tuple of Jumps"),
     ],
 )
-def test_errors_name_the_wrong_argument_and_what_is_wanted(wrong, kind, message, motions):
+def test_errors_name_the_wrong_argument_and_say_what_is_wanted(wrong, kind, message, motions):
     with pytest.raises(kind, match=message):
         wrong(motions[1])

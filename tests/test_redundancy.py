@@ -79,7 +79,7 @@ def test_pseudo_inverse_makes_the_shortest_step(arm):
 
 
 @arms
-def test_gradient_projection_moves_the_joints_towards_their_middle(arm):
+def test_gradient_projection_moves_the_joints_towards_mid_range(arm):
     K, before = tasks(arm, 400)
     plain, pulled = pseudo_inverse(arm, K, before), gradient_projection(arm, K, before)
     middle = np.pi / 2
@@ -124,7 +124,7 @@ def test_random_choice_is_uniform():
 
 
 @arms
-def test_the_distance_rule_stops_the_lever_that_comes_near(arm):
+def test_the_distance_rule_stops_the_nearest_approaching_lever(arm):
     K, before = tasks(arm, 200)
     np.testing.assert_array_equal(
         distance_rule((30.0, 30.0))(arm, K, before), pseudo_inverse(arm, K, before)
@@ -165,7 +165,7 @@ def test_joints_stop_at_their_limits(arm, monkeypatch):
 
 
 @arms
-def test_batch_equals_single_tasks(arm):
+def test_batch_gives_the_same_results_as_single_tasks(arm):
     K, before = tasks(arm, 12)
     for name in NAMES:
         if name == "random choice":
@@ -177,7 +177,7 @@ def test_batch_equals_single_tasks(arm):
         assert method(arm, K, before[0]).shape == (12, 3)
 
 
-def test_a_race_starts_each_task_where_the_last_one_ended():
+def test_each_task_of_a_race_starts_where_the_previous_one_ended():
     arm = ARMS["equal"]
     K, before = tasks(arm, 25)
     K[7] = (3.0, 0.2)  # out of reach, so no method moves the arm

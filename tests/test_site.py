@@ -357,7 +357,7 @@ def test_the_notes_for_teachers_can_be_left_out(tmp_path, monkeypatch):
     assert asked == [(tmp_path, True), (tmp_path, False)]
 
 
-def test_the_answers_of_the_oral_questions_are_folded(page, address):
+def test_the_answers_to_the_oral_questions_are_folded(page, address):
     page.goto(f"{address}/documents/teaching.html")
     answers = page.locator("details", has=page.get_by_text("Answer", exact=True))
     assert answers.count() == len(LABS) - 1  # lab 00 has no oral question

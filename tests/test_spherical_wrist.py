@@ -127,7 +127,7 @@ def test_poses_moved_out_of_the_workspace_lose_their_rows(machine):
 
 @machines
 @pytest.mark.parametrize("shape", SHAPES + [(0,), (2, 0)])
-def test_every_batch_shape_gives_the_rows_of_its_poses(machine, shape):
+def test_every_batch_shape_gives_the_same_rows_as_single_poses(machine, shape):
     arm = machine.arm
     q = random_joints(arm, np.random.default_rng(6), shape)
     T = arm.fk(q)
@@ -139,7 +139,7 @@ def test_every_batch_shape_gives_the_rows_of_its_poses(machine, shape):
         assert np.nanmin(gap(arm, one, q[i]).max(-1)) < 1e-9
 
 
-def test_a_long_batch_gives_the_rows_of_its_poses():
+def test_a_long_batch_gives_the_same_rows_as_short_batches():
     T = IRB140.fk(random_joints(IRB140, np.random.default_rng(7), (5001,)))
     rows = IRB140.ik(T)
     for block in (slice(0, 7), slice(2040, 2060), slice(4090, 4100), slice(4995, 5001)):
@@ -308,7 +308,7 @@ def test_joint_1_is_free_at_shoulder_singular_poses(machine):
             assert (rows[..., 0][exists] == np.broadcast_to(front, exists.shape)[exists]).all()
 
 
-def test_the_pumas_shoulder_rows_meet_where_its_wrist_touches_the_cylinder():
+def test_the_pumas_front_and_back_rows_coincide_at_distance_d3_from_axis_1():
     """The PUMA's wrist centre cannot come nearer to axis 1 than d3; at that distance front and back
     coincide, and the row is repeated.
     """
@@ -416,7 +416,7 @@ for case in oracle("itmo6r")["cases"]:
     CASES,
     ids=[f"{arm.name}-{i}-{case['kind']}" for i, (arm, case, _) in enumerate(CASES)],
 )
-def test_rows_equal_the_reference_case(arm, case, unit):
+def test_rows_match_the_reference_case(arm, case, unit):
     compare(arm, case, unit)
 
 
@@ -456,7 +456,7 @@ X, Y, Z = np.eye(3)
         (changed(4, before=at(0, 0, 0)), "forearm"),
     ],
 )
-def test_unsuitable_chains_are_refused_with_the_axis(links, message):
+def test_unsuitable_chains_are_refused_and_the_axis_is_named(links, message):
     with pytest.raises(ValueError, match=f"links: wanted.*{message}"):
         spherical_wrist("crooked", links, np.array([(-180, 180)] * len(links)) * deg)
 

@@ -70,7 +70,7 @@ every_move = pytest.mark.parametrize(
 # ---- whole pulses
 
 
-def test_no_rounding_adds_up_over_10_000_moves():
+def test_rounding_errors_do_not_add_up_over_10_000_moves():
     rng = np.random.default_rng(1)
     q = rng.uniform(-np.pi, np.pi, (10_001, 3))
     per_degree = np.array([10 / 3, 7.77, 0.1])
@@ -120,7 +120,7 @@ def test_angles_in_degrees_cause_a_warning():
 
 
 @pytest.mark.parametrize("case", CASES, ids=[str(i) for i in range(len(CASES))])
-def test_frequencies_and_times_equal_the_reference_cases(case):
+def test_frequencies_and_times_match_the_reference_cases(case):
     assert frequencies(case["pulses"]) == pytest.approx(case["frequencies"], rel=1e-12)
     move = synchronised(np.zeros(3), case["pulses"])
     assert move.duration == pytest.approx(case["time"], rel=1e-12)
@@ -140,7 +140,7 @@ def test_frequencies_solve_the_corrected_linear_program(phi):
     assert (frequencies(phi)[~moving] == 0).all()
 
 
-def test_the_printed_conditions_make_the_longest_motor_the_slowest():
+def test_the_printed_conditions_make_the_motor_with_most_pulses_the_slowest():
     phi = np.array([1000.0, 500, 250])
     printed = linprog(
         -phi, A_eq=[[1000, -500, 0], [1000, 0, -250]], b_eq=[0, 0], bounds=[(0, LIMIT)] * 3
@@ -206,7 +206,7 @@ def test_synchronised_motors_start_and_stop_together_within_one_pulse(start, goa
 
 
 @pytest.mark.parametrize("start, goal", PAIRS)
-def test_unsynchronised_motors_stop_one_by_one(start, goal):
+def test_unsynchronised_motors_stop_one_after_another(start, goal):
     move, together = unsynchronised(start, goal), synchronised(start, goal)
     for (times, _), n in zip(move.pulses(), abs(goal - start), strict=True):
         if n:
@@ -239,7 +239,7 @@ def test_only_the_straight_move_is_straight(points):
     assert b.duration >= d.duration - 1e-12  # no move within the limit is faster than d
 
 
-def test_motors_turn_back_in_move_c_and_not_in_move_b():
+def test_motors_reverse_in_move_c_but_not_in_move_b():
     for points, turning in ((B, [0, 0, 0]), (C, [0, 1, 1])):
         trains = straight(ARM, *points, PER_DEGREE).pulses()
         assert [(np.diff(signs) != 0).sum() for _, signs in trains] == turning
@@ -421,7 +421,7 @@ def printed(text):
     return np.array([[mark == "+" for mark in line] for line in text.split()])
 
 
-def test_phases_equal_the_documents_two_tables():
+def test_phases_match_both_tables_of_the_document():
     assert (phases("wave", "unipolar") == printed("+... .+.. ..+. ...+")).all()
     bipolar = phases("two-phase", "bipolar")
     assert ((bipolar == 1) == printed("+.+. .++. .+.+ +..+")).all()
@@ -459,7 +459,7 @@ def test_fields_cancel_in_table_2_with_the_names_of_table_1():
     assert abs(field) == pytest.approx([0, np.sqrt(2), 0, np.sqrt(2)])
 
 
-def test_the_order_of_the_rows_gives_the_direction():
+def test_the_order_of_the_rows_determines_the_direction():
     table = phases("wave", "unipolar")
     assert (energised(table, [1, 1, 1, 1]) == table[[0, 1, 2, 3, 0]]).all()
     assert (energised(table, [-1, -1, 1]) == table[[0, 3, 2, 3]]).all()
@@ -591,7 +591,7 @@ RUNS = {
 
 
 @pytest.mark.parametrize("name", RUNS)
-def test_run_equals_scipy_integration(name):
+def test_run_matches_scipy_integration(name):
     motor, frequency, load, load_inertia = RUNS[name]
     t, signs = even(12, frequency)
     run = motor.run(t, signs, load, load_inertia)
@@ -718,7 +718,7 @@ def test_number_of_pulses_of_a_ramp_is_the_integral_of_its_frequency(asked):
     assert 1 / end - 1e-12 <= gaps.min() and gaps.max() <= 1 / start + 1e-12
 
 
-def test_constant_ramp_equals_a_constant_move():
+def test_constant_ramp_matches_a_move_at_constant_frequency():
     times, signs = synchronised([0], [37], 250).pulses()[0]
     assert ramp(37, 250, 250, 1.0) == pytest.approx(times) and signs.sum() == 37
     for no_time in (0.0, 1e-9, 5e-324):

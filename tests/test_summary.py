@@ -204,7 +204,7 @@ def test_each_row_links_to_its_own_page(handed, tmp_path):
         assert any("points" in head for head in table_in(tmp_path)[0]) == points
 
 
-def test_numbers_have_units_and_optional_predictions_may_be_missing(tmp_path):
+def test_numbers_have_units_and_optional_predictions_can_be_missing(tmp_path):
     slug = "irb140_motion"
     data = report_of("Ada", slug)
     asked = book.lab(slug).predictions
@@ -486,6 +486,6 @@ def test_terminal_shows_progress_on_one_line(tmp_path, monkeypatch, capsys):
         (f"{'x' * 250}/x.ipynb", "x" * 200),
     ],
 )
-def test_path_of_a_notebook_gives_its_student(path, who):
+def test_notebook_path_determines_the_students_name(path, who):
     made = summary.who_of(Path(path))
     assert made == who and normalised(made)

@@ -84,7 +84,7 @@ def test_tours_match_those_of_the_package_for_the_points_in_reach():
             assert told[name]["times"] == list(result.times)
 
 
-def test_best_order_of_many_points_waits_for_release():
+def test_best_order_of_many_points_is_computed_on_release():
     rng = np.random.default_rng(4)
     cloud = some(rng, 60)
     cloud = cloud[workspace(5, 4, cloud).all(axis=-1)][: WHILE_HELD + 1].tolist()
@@ -105,7 +105,7 @@ def test_loss_of_the_greedy_tour_is_reported():
     assert "1 of 4 in reach" in answered(away, SPEEDS)["says"]
 
 
-def test_a_start_on_axis_1_has_no_best_order_to_collect():
+def test_no_best_collecting_order_is_given_for_a_start_on_axis_1():
     told = answered(asked(kind="collect", p0=[0, 0, 6.5], T=60), SPEEDS)
     assert told["best"] is None and "on axis 1" in told["says"] and told["greedy"]["order"]
     assert answered(asked(p0=[0, 0, 6.5], T=60), SPEEDS)["best"]["order"]
@@ -120,7 +120,7 @@ def test_tour_below_the_floor_is_reported_with_its_depth():
     assert answered(low | {"l1": 4.0, "l2": 5.0}, SPEEDS)["notes"] == [], "never for l1 <= l2"
 
 
-def test_stored_output_is_small_with_alt_text():
+def test_stored_output_is_small_and_has_alt_text():
     explorer = tour_explorer(CIRCLE)
     assert len(explorer.html) < 57_000
     assert "Greed loses 2 points" in explorer.data["alt"] and explorer.data["alt"] in explorer.html
@@ -311,7 +311,7 @@ def test_late_answer_does_not_undo_changes(slow):
 
 
 @pytest.mark.parametrize("between", ["sleeps", "wakes twice"])
-def test_questions_that_no_kernel_answered_are_repeated(slow, between):
+def test_unanswered_questions_are_repeated(slow, between):
     """Otherwise the tours would belong to points other than those shown, until the next move."""
     page, root, asked, answer = slow
     typed(page, "T, s, exactly", "29")

@@ -87,7 +87,7 @@ def options(name):
 # --- Lab 01 ---------------------------------------------------------------------------------------
 
 
-def test_transposing_inverts_the_rotation_alone():
+def test_transposing_inverts_only_the_rotation():
     wrong = find("frames_and_quaternions.1", "exercises").text.wrong()
     (mistake,) = [each for each in wrong if each.name == "transposed for inverse"]
     assert "Transposing inverts the rotation R alone." in mistake.says
@@ -98,7 +98,7 @@ def test_transposing_inverts_the_rotation_alone():
     assert np.allclose(pose.T[:3, :3], inverse[:3, :3]) and not np.allclose(pose.T, inverse)
 
 
-def test_trace_formula_loses_its_digits_near_half_a_turn():
+def test_trace_formula_loses_digits_near_half_a_turn():
     before = "opening-setup", "elementary", "product-code", "turning-code"
     (value,) = tries("01", "to-matrix-code", "oblique")
     g, said = run("01", *before, "to-matrix-code", name="oblique", value=value)
@@ -113,7 +113,7 @@ def test_trace_formula_loses_its_digits_near_half_a_turn():
 # --- Lab 02 ---------------------------------------------------------------------------------------
 
 
-def test_the_check_accepts_what_hint_2_approves_and_names_a_motion_with_a_jump():
+def test_check_accepts_what_hint_2_approves_and_reports_jumps():
     lines = find("irb140_kinematics.3", "exercises").hints[1].split("\n")
     program = "\n".join(line[4:] for line in lines if line.startswith("    "))
     task = sources("02")["yourturn-3"]
@@ -162,7 +162,7 @@ def test_a_wrap_spoils_two_central_differences_and_one_plain_difference():
     assert re.search(r"two steps: 314 and 628 rad/s", reply) and "628 rad/s at 10 ms" in reply
 
 
-def test_value_to_try_doubles_the_false_speed_and_keeps_the_true_ones():
+def test_suggested_values_change_only_the_false_speed():
     """Regression: the value to try used to be the duration, which scales both speeds equally."""
     (name,) = re.findall(r"Try other values of `(\w+)`", sources("02")["speed-look"])
     found = [run("02", "setup", "speed-code")[0]]
@@ -178,7 +178,7 @@ def test_value_to_try_doubles_the_false_speed_and_keeps_the_true_ones():
     assert np.allclose(false[:, 5], np.pi / steps, rtol=2e-3)
 
 
-def test_the_cross_product_fails_differently_for_each_value_to_try():
+def test_the_cross_product_fails_differently_for_each_suggested_value():
     before = "setup", "chain-code", "package-code", "split-code", "joint1-code", "triangle-code"
     before += "matrix-code", "wrist-code"
     said = [run("02", *before, "cross-code")[1]]
@@ -277,7 +277,7 @@ def test_the_laws_trade_speed_for_acceleration():
     assert offered == [f"trapezoidal(duration, {a})" for a in (0.1, 0.5)]
 
 
-def test_laws_cell_shows_that_more_speed_means_less_acceleration():
+def test_laws_cell_shows_that_higher_speed_means_lower_acceleration():
     cells = "setup", "lin-code", "ptp-code", "laws-numbers"
     shown = []
     for value in ("quintic(duration)", *tries("03", "laws-numbers", "law")):
@@ -374,7 +374,7 @@ def test_elbow_plus_one_bends_to_the_left_in_both_labs():
 @pytest.mark.parametrize(
     "cell, name", [("ik-code", "wanted_place"), ("limits-code", "asked_place")]
 )
-def test_positions_to_try_are_in_millimetres(cell, name):
+def test_suggested_positions_are_in_millimetres(cell, name):
     values = tries("04", cell, name)
     assert values and all(value.endswith("* mm") for value in values)
 

@@ -91,7 +91,7 @@ def wrist_speeds(q_deg):
     return np.linalg.svd((places[0] - places[1]).T / 2e-6)[1]
 
 
-def test_joint_5_keeps_the_ellipsoid_in_the_explorer_and_joint_3_flattens_it():
+def test_joint_5_leaves_the_ellipsoid_unchanged_and_joint_3_flattens_it():
     five, three = said("07", "near-look", r"joint 5 to (\S+): it stays.*joint 3 to (\S+)°: it goes")
     before = wrist_speeds([0, 60, -170, 0, 40, 0])
     assert wrist_speeds([0, 60, -170, 0, five, 0]) == pytest.approx(before, rel=1e-6)
@@ -107,7 +107,7 @@ def test_joint_5_keeps_the_ellipsoid_in_the_explorer_and_joint_3_flattens_it():
         assert own[2] / own[0] < 0.1, "one axis is nearly gone"
 
 
-def test_speeds_grow_by_the_stated_factors_ten_times_nearer_to_a_singularity():
+def test_speeds_grow_by_the_stated_factors_ten_times_closer_to_a_singularity():
     told = said(
         "07",
         "cross-look",
@@ -340,7 +340,7 @@ def direct(start, target=K1):
     return np.stack([start, ARM.least(target, start)[0]])
 
 
-def test_stated_numbers_of_stretches_prove_the_distances():
+def test_distances_are_proven_with_the_stated_numbers_of_intervals():
     made = run("10", "setup", "lever-code", "whole-code")
     proven, H = made["proven"], made["H_motion"]
     a, b = made["q0"], made["q1"]
@@ -361,7 +361,7 @@ def test_stated_numbers_of_stretches_prove_the_distances():
     assert proven(a, a, H, 1.1 * room) == (False, 1)
 
 
-def test_arm_stays_at_the_stated_distance():
+def test_movement_depends_on_the_required_distance_as_stated():
     made = run("10", "setup", "drawing-tools", "lever-code", "whole-code", "control-code")
     control, H = made["control"], np.array([1.2, 1.3])
     text = r"value S rises, from (\d+)° at (\d+) mm to (\d+)° at (\d+) mm, but for one fall, from "
@@ -441,7 +441,7 @@ def test_the_wave_starts_and_ends_in_proven_postures(capsys):
             assert round(near) == int(cannot[1]) and near < DISTANCE / mm
 
 
-def test_a_grid_of_15_degrees_finds_no_path_and_one_of_5_does():
+def test_search_finds_no_path_on_a_15_degree_grid_but_finds_one_on_a_5_degree_grid():
     question, options, _ = asked("obstacle_avoidance.p8")
     H = np.array([0.5, 1.0])
     assert "(0.5, 1) m" in question and "steps of 15°" in question
@@ -593,7 +593,7 @@ def test_lab_11_does_not_mention_missing_tables():
     assert not [text for text in texts if re.search(r"\btable \d", text)]
 
 
-def test_every_cycle_to_try_drifts():
+def test_every_suggested_cycle_drifts():
     arm, per_degree = loader_arm(450 * mm, 300 * mm), np.array([10, 40, 40])
     for stakes in ([420, -180, 420], *tries("11", "drift-code")):
         points = np.array([[600, -350, 50], stakes, [50, 250, 350]]) * mm
@@ -649,7 +649,7 @@ def test_the_table_near_zero_uses_the_formulas_of_the_lab():
         assert [f"{x:.6f}" for x in own] == [one, two]
 
 
-def test_rounding_on_the_rim_removes_as_many_answers_as_stated():
+def test_rounding_on_the_rim_loses_the_stated_number_of_answers():
     made = generated()
     question, options, right = asked("two_link_code_generation.p8")
     count = int(re.search(r"We take (\d+) tips", question)[1])
@@ -675,7 +675,7 @@ def test_lab_and_exercise_3_state_the_same_accuracy():
 # --- The documents --------------------------------------------------------------------------------
 
 
-def test_signed_angle_is_covered_in_the_places_of_its_row():
+def test_sections_named_in_the_companion_cover_the_signed_angle():
     (row,) = [x for x in cells("001")["rows"].splitlines() if x.startswith("| S1-01 |")]
     assert "signed `angle_to` about an axis" in row and "Quaternion.angle_to" not in row
     assert "[here §1]" in row and "[02 §6]" in row
@@ -690,7 +690,7 @@ def test_signed_angle_is_covered_in_the_places_of_its_row():
         assert u.angle_to(v, Vector(0, 0, 1)) / deg == pytest.approx(turn)
 
 
-def test_five_methods_of_part_one_race():
+def test_the_race_includes_the_five_methods_of_part_one():
     (line,) = [x for x in cells("003")["lost"].splitlines() if x.startswith("| I |")]
     many, first, second = re.search(r"09: (\w+) methods of (\S+) and (\S+) race", line).groups()
     makers = [

@@ -139,7 +139,7 @@ def test_the_arm_reaches_the_pose_of_the_first_picture_in_eight_ways():
     assert len(found) == 8
 
 
-def test_only_joint_3_is_not_from_atan2_and_joint_6_can_undo_joint_4():
+def test_only_joint_3_does_not_use_atan2_and_joint_6_can_undo_joint_4():
     assert "Every angle but joint 3's comes from atan2" in flat("02", "short")
     code = cells("02")
     assert (
@@ -187,7 +187,7 @@ def test_axis_5_points_in_the_stated_direction():
     assert np.arccos(axis @ ways["below"]) / deg == pytest.approx(below, abs=1e-3)
 
 
-def test_shoulder_behind_is_farther_by_the_stated_distance():
+def test_back_shoulder_is_farther_by_the_stated_distance():
     hint = find("irb140_kinematics.2", "exercises").hints[1]
     ahead, more = numbers(r"At its height .* more than (\d+) mm ahead is (\d+) mm farther", hint)
     for x in (ahead + 1, 300, 800):  # the shoulder is at +70 or -70 mm
@@ -232,7 +232,7 @@ def test_notch_begins_and_tool_passes_joint_1_where_stated():
     assert round(np.arccos(-200 / 250) / deg) == angle
 
 
-def test_both_ways_to_one_orientation_have_the_stated_greatest_speed():
+def test_both_motions_to_the_same_orientation_have_the_stated_greatest_speeds():
     slow, fast = numbers(
         r"speed (\S+) °/s \(joint 5\).* (\S+) °/s \(joint 4\)", shown("06", "twins")
     )
@@ -241,7 +241,7 @@ def test_both_ways_to_one_orientation_have_the_stated_greatest_speed():
     assert [135 / (1 - 0.25), (45 + 180) / (1 - 0.25)] == pytest.approx([slow, fast])
 
 
-def test_errors_after_the_cure_are_as_stated_and_equal_shares_turn_least():
+def test_errors_after_the_fix_are_as_stated_and_equal_sharing_turns_least():
     words = view("spherical_wrist.p6")
     most, down, where, there = numbers(
         r"below (\S+) down to theta = (\S+); at (\S+), where phi .* it is (\S+), and falls", words
@@ -264,7 +264,7 @@ def test_errors_after_the_cure_are_as_stated_and_equal_shares_turn_least():
 # --- Labs 07 to 09 --------------------------------------------------------------------------------
 
 
-def test_the_corner_is_a_share_of_the_progress_and_only_joint_values_jump():
+def test_the_corner_is_a_fraction_of_the_progress_and_only_joint_values_jump():
     assert "a share $b$ of the progress $s$ on either side of via" in flat("07", "via")
     made = run_cells("07", "opening-setup")
     start, goal = made["start"], made["goal"]
@@ -413,7 +413,7 @@ def test_gamma_must_change_between_the_two_targets():
         assert np.allclose(ARM.points(q[np.isfinite(q).all(axis=1)])[:, 3], place)
 
 
-def test_sum_and_largest_change_are_least_where_stated():
+def test_sum_of_changes_and_largest_change_are_least_where_stated():
     STAND, TARGET = map(book.lab("three_levers").module("predictions").get, ("STAND", "TARGET"))
     at = numbers(r"least at (\d+) degrees, the largest at (\d+) degrees", view("three_levers.p8"))
     q = np.array([one_posture(TARGET, g) for g in np.linspace(0, np.pi, 20001)])

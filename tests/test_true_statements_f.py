@@ -115,7 +115,7 @@ def test_last_hint_for_slerp_catches_every_mistake():
     assert without
 
 
-def test_skew_axes_with_directions_determine_a_link():
+def test_skew_axes_with_known_directions_determine_the_dh_parameters():
     reason = one_line(option("frames_and_quaternions.p4", "none").reason)
     assert "one common perpendicular, once you have said which way it and the axes point." in reason
     assert "it is 0, or 180° where they point opposite ways" in one_line(
@@ -175,7 +175,7 @@ def test_trapezoid_brakes_at_full_strength_to_the_end():
     assert narrow(0.5) / quad(narrow, 0, 1)[0] > 2  # another bell needs more than a triangle
 
 
-def test_quintic_corner_raises_the_tools_peak_by_the_stated_factor():
+def test_quintic_corner_raises_the_tools_peak_acceleration_by_the_stated_factor():
     second = one_line(option("irb140_motion.p7", "much more").second)
     told = r"At the same blend the quintic gives the tool (\S+) times the parabola's greatest"
     (factor,) = numbers(told + " acceleration in the corner:", second)
@@ -368,7 +368,7 @@ def singular_too(program, right):
     return found
 
 
-def test_hint_and_solution_reject_a_better_root_alone():
+def test_hint_and_solution_reject_a_program_with_only_a_better_root():
     made = lab_06()
     right, better = made["my_wrist"], singular_too(made["better_root"], made["my_wrist"])
     worst = {1e-10: 1e-6, 1e-9: 1e-7, 1e-8: 1e-8, 1e-7: 1e-9}
@@ -401,7 +401,7 @@ def test_hint_and_solution_reject_a_better_root_alone():
     )
 
 
-def test_a_hundred_matrices_are_enough_for_wrist_programs():
+def test_a_hundred_matrices_are_enough_to_test_wrist_programs():
     assert "a hundred well chosen ones will do" in flat("06", "yourturn-2")
     rng = np.random.default_rng(11)
     pairs = [(np.pi / 4, 0.3), (2, -0.5), *rng.uniform(-np.pi, np.pi, (4, 2))]
@@ -450,7 +450,7 @@ def test_regular_formulas_lose_digits_at_the_stated_angle():
 # --- Lab 07 ---------------------------------------------------------------------------------------
 
 
-def test_these_lines_do_not_tell_which_rule_is_better():
+def test_the_sampled_lines_do_not_show_which_rule_is_better():
     question, options, right = asked("puma560_branches.p7")
     reason = one_line(options[right].reason)
     (said,) = numbers(r"^About (\d+) %\.$", options[right].text)
@@ -520,7 +520,7 @@ def lab_07(*names):
     return made, told.getvalue()
 
 
-def test_greatest_speeds_past_the_wrist_are_those_of_the_line():
+def test_table_shows_the_greatest_joint_speeds_past_the_wrist_singularity():
     made, told = lab_07("cross-cost")
     table = [line.split() for line in told.splitlines()[-4:]]
     for row in table:
@@ -532,7 +532,7 @@ def test_greatest_speeds_past_the_wrist_are_those_of_the_line():
     assert drawn == 44868
 
 
-def test_player_shows_the_greatest_speed_of_the_line():
+def test_player_shows_the_greatest_joint_speed_on_the_line():
     made, _ = lab_07()
     source = cells("07")["cross-player"]
     head, _, tail = source.rpartition("\nanimate(")
@@ -541,7 +541,7 @@ def test_player_shows_the_greatest_speed_of_the_line():
     assert said == round(peak(made, "wrist", 2 * mm, 6), 1) == 2244.5
 
 
-def test_tangent_is_nearly_in_the_arms_plane():
+def test_flange_moves_nearly_in_the_arms_plane_at_the_nearest_point():
     reason = one_line(option("puma560_branches.p6", "as towards the axis").reason)
     told = r"the flange moves, where it is nearest, nearly in the arm's own plane, (\S+)° from it"
     (said,) = numbers(told, reason)

@@ -82,7 +82,7 @@ def bin_on_the_axis(order, places, home, speed=0.2):
     return spent
 
 
-def test_order_of_the_angles_turns_joint_1_least():
+def test_visiting_in_order_of_angle_turns_joint_1_least():
     second = one_line(option("visit_and_collect.p5", "container on axis 1").second)
     assert second.endswith(
         "Four objects round the axis: joint 1 turns least in the order of their angles, from one "
@@ -130,7 +130,7 @@ def table(places, speed=0.2):
     return [[needs(a, b, speed) for b in q] for a in q]
 
 
-def test_round_with_a_way_home_beats_nearest_first_as_stated():
+def test_another_round_trip_beats_nearest_first_as_stated():
     reason = one_line(option("visit_and_collect.p5", "emptied at the end").reason)
     assert "this is visiting with a way home. At" in reason
     told = r"At (\d+) s nearest first brings (\d) of the opening's points, another order (\d)\."
@@ -189,7 +189,7 @@ def test_time_to_collect_is_three_times_the_time_to_visit():
             assert check("visit_and_collect.3", made["my_traps"], who=who).holds
 
 
-def test_differences_are_negative_for_the_stated_shares():
+def test_all_differences_are_negative_in_the_stated_range():
     words = flat("08", "check-look")
     told = r"for a share of (\S+) or more and below (\S+) every difference is negative"
     low, high = numbers(told, words)
@@ -284,7 +284,7 @@ def test_belt_table_shows_one_stream_and_others_need_one_more_arm():
         assert (arms_needed(0.2, 1, seed), arms_needed(0.3, 1, seed)) == (4, 5)
 
 
-def test_player_at_the_belt_shows_the_streams_of_the_table():
+def test_belt_player_shows_the_streams_of_the_table():
     assert "six seconds of the table's streams at 200 mm/s" in flat("08", "belt-look")
     made = quietly("08", "opening", "setup", "chain-code", "belt-code", "belt-motion")
     head = cells("08")["belt-player"].split("\nedge, side")[0]
@@ -372,7 +372,7 @@ def test_family_in_this_file_is_correct():
             assert gripper(family(K, alpha, bend), bend) == pytest.approx(K)
 
 
-def test_random_choice_turns_less_in_the_stated_number_of_tasks_but_never_from_one_posture():
+def test_random_choice_turns_less_as_often_as_stated_but_never_from_the_same_posture():
     found = option("three_levers.p10", "hardly more")
     reason = one_line(found.reason)
     assert (
@@ -410,7 +410,7 @@ def width(KO):
     return 180 - math.degrees(math.acos((5 - KO**2) / 4))
 
 
-def test_narrower_range_is_the_one_in_inverse_proportion():
+def test_the_narrower_range_follows_from_inverse_proportion():
     found = option("three_levers.p2", "in proportion")
     (said,) = numbers(r"^Narrower, (\S+)°: in inverse proportion to the distance\.$", found.text)
     assert said == round(width(1.5) * 1.5 / 2.8, 1)
@@ -495,7 +495,7 @@ def test_clipped_arm_stretches_or_folds_and_does_not_reach_k():
 # --- Lab 10 ---------------------------------------------------------------------------------------
 
 
-def test_levers_80_mm_wide_lose_no_plan_but_need_a_larger_circle():
+def test_plans_for_80_mm_wide_levers_exist_but_one_needs_a_larger_circle():
     claim = "levers 80 mm wide lose no plan, but past (1.6, 1.3) m they need a larger circle"
     assert any(claim in text for text in cells("10").values())
     answers = []

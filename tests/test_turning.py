@@ -43,7 +43,7 @@ def test_chain_is_the_rotated_planar_arm(arm, shape):
 
 @arms
 @pytest.mark.parametrize("shape", SHAPES)
-def test_least_reaches_the_point_within_the_limits(arm, shape):
+def test_least_movement_reaches_the_point_within_the_limits(arm, shape):
     points, before = tip(arm, postures(arm, shape)), postures(arm, shape, seed=2)
     q, S = arm.least(points, before)
     assert q.shape == (*shape, 4) and S.shape == shape

@@ -767,7 +767,7 @@ EXPLAIN = """([arm, list]) => list.map(([pose, row]) =>
 
 
 @every_arm
-def test_page_explains_in_the_same_words(twin, name):
+def test_page_gives_the_same_explanations(twin, name):
     """For every reason, the sentences equal those of Python's `explain`."""
     arm, rng = ARMS[name], np.random.default_rng(12)
     asked, want = [], []

@@ -30,7 +30,7 @@ def elbows(arm, rows):
 
 
 @cases
-def test_ik_equals_the_reference_cases(case):
+def test_ik_matches_the_reference_cases(case):
     arm = two_link(case["l1"], case["l2"], case["base"])
     rows = arm.ik(case["target"])
     if not case["reachable"]:
@@ -115,7 +115,7 @@ def test_stretched_and_folded_arms_are_reachable_and_points_beyond_are_not(l1, l
     assert np.isnan(arm.ik((x, y, 1e-3))).all() and np.isfinite(arm.ik((x, y, 0))).all()
 
 
-def test_explain_states_each_reason_in_words():
+def test_explain_states_each_reason():
     arm = two_link(1, 1.5)
     assert "does not exist: the target is 500.0 mm beyond the stretched arm" in explain(
         arm, (3, 0), 0
@@ -172,7 +172,7 @@ def test_the_printed_y2_has_a_wrong_denominator():
         printed(0.0, 0.3, 1)
 
 
-def test_the_printed_root_swaps_the_elbow_with_the_sign_of_x3():
+def test_the_printed_root_swaps_the_elbow_when_x3_changes_sign():
     sides = []
     for x3 in (0.1, -0.1):
         x2, y2 = printed(x3, 1, 1)
