@@ -296,8 +296,8 @@ def test_roll_is_zero_at_vertical_pitch(pitch):
 
 @pytest.mark.parametrize("sign", [1, -1])
 def test_roll_pitch_yaw_keep_their_digits_near_vertical_pitch(sign):
-    """The nearer the pitch is to a quarter turn, the fewer digits roll and yaw have; the rotation
-    that they make together keeps all its digits.
+    """The nearer the pitch is to a quarter turn, the fewer correct digits roll and yaw have; the
+    rotation that they make together keeps all its digits.
     """
     rng = np.random.default_rng(15)
     for off in 10.0 ** np.arange(-17, 0.5, 0.25):

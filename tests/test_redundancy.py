@@ -60,7 +60,7 @@ def test_methods_arrive_within_the_limits_or_return_nan(arm, name):
     assert np.nanmin(more) > -1e-8
     if name == "least movement":
         assert not failed.any() and np.nanmax(more) < 1e-12
-    else:  # the bound is not trivial: nearly all others move more
+    else:  # the bound is not trivial: the other methods usually move more
         assert np.nanmedian(more) > 0.01
     far = methods(H, 0)[name](arm, 4 * K, before)
     assert np.isnan(far[np.hypot(*(4 * K).T) > arm.reach]).all()
@@ -98,7 +98,7 @@ def test_equal_angles_are_found_where_they_exist(arm):
     K, before = tasks(arm, 300)
     q = equal_angles(arm, K, before)
     np.testing.assert_allclose(q[:, 1], q[:, 2], rtol=0, atol=1e-9)
-    # along the family beta - alpha changes sign once, or there is no such posture
+    # beta - alpha changes sign once along the family, or no posture has equal angles
     low, high = arm.alpha_range(K, limited=False)
     rows = arm.family(K[:, None], low[:, None] + (high - low)[:, None] * np.linspace(0, 1, 4001))
     signs = np.diff(np.sign(rows[..., 1] - rows[..., 2]), axis=1) != 0
@@ -141,7 +141,7 @@ def test_the_distance_rule_stops_the_nearest_approaching_lever(arm):
         if not comes.any() or np.isnan(step).any() or np.linalg.cond(arm.jacobian(q)[:2]) > 5:
             continue
         if (abs(closer) < 1e-7).any() or (abs(share - 0.5) < 0.01).any():
-            continue  # rounding errors decide here
+            continue  # skip cases that rounding errors decide
         lever = np.where(comes, d, np.inf).argmin()
         alone = distances(arm, q + step * (np.arange(3) == lever), H)[lever] - d[lever]
         if share[lever] < 0.99 / 7:

@@ -95,7 +95,7 @@ def law(name, total, t):
 def test_the_documents_motions_match_the_oracle(case):
     total, step = case["total"], case["step"]
     t = np.arange(0, total, step)
-    # errata S1-j: the printed law leaves the end poses; robokin refuses it
+    # errata S1-j: the printed law misses both end poses; robokin refuses it
     if case["law"] == "blend 0.55":
         with pytest.raises(ValueError, match=r"0\.55"):
             law(case["law"], total, t)
@@ -124,9 +124,7 @@ def test_the_angle_of_a_target_is_not_wrapped():
 
 
 def test_only_targets_determine_the_direction_of_half_a_turn():
-    """Errata S1-t: 0.01 degrees to either side of START decide the direction of the rotation to
-    VIA.
-    """
+    """Errata S1-t: 0.01 degrees to either side of START decide the direction of rotation to VIA."""
     middles = []
     for off in (-0.01 * deg, 0.01 * deg):
         near = ScaraPose(START.position, off)

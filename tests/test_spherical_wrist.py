@@ -54,8 +54,8 @@ def solved(arm, T, rows):
 
 
 def expected(machine, T):
-    """Which rows must exist, decided from distances alone, (..., 8) bool, and the distance of each
-    from the border of existence.
+    """Which rows must exist, as booleans (..., 8) found from distances alone, and the distance of
+    each row from the border of existence.
     """
     w = machine.wrist
     centre = T.translation - w["tool"] * T.rotation.as_matrix()[..., 2]
@@ -171,8 +171,8 @@ def test_rows_at_wrist_singular_poses_are_correct(machine, bend):
     fixed = row[:, 3] - q[:, 3] + sense * (row[:, 5] - q[:, 5])
     assert turns(fixed, 0).max() < 1e-8
     if bend in (0, np.pi, -np.pi):
-        # Joint 4 is free and 0 by convention. Near a stretched arm the rounding of the pose already
-        # bends the wrist.
+        # Joint 4 is free and 0 by convention. Near stretched postures, rounding the pose is
+        # enough to bend the wrist.
         assert (row[:, 3] == 0).mean() > 0.98
         assert turns(row[:, 4], bend).max() < 1e-8
         assert (exists.sum(1) % 4 == 0).all()  # both wrist rows exist, although they coincide
@@ -189,7 +189,7 @@ def test_home_has_all_its_rows(machine):
     T = arm.fk(np.zeros(6))
     rows = arm.ik(T)
     exists = solved(arm, T, rows)
-    # the ITMO6R is stretched at home: see below
+    # at home the ITMO6R is stretched, which is tested below
     assert (exists == expected(machine, T)[0]).all() or arm is ITMO6R
     assert abs(rows[exists]).max(-1).min() < 1e-7
 
@@ -214,12 +214,12 @@ def stretched(machine, count, rng, folded=False):
 @six
 @pytest.mark.parametrize("folded", [False, True])
 def test_stretched_and_folded_postures_are_reachable(machine, folded):
-    """A cosine above 1 by a rounding error counts as 1. The two elbow rows coincide, and both
+    """A cosine that rounding makes larger than 1 counts as 1. The two elbow rows coincide, and both
     exist.
     """
     arm = machine.arm
     if arm is IRB140:
-        folded = not folded  # at q3 = 90 degrees the forearm points back down the upper arm
+        folded = not folded  # at q3 = 90 degrees the forearm points back along the upper arm
     q = stretched(machine, 500, np.random.default_rng(9), folded)
     T = arm.fk(q)
     rows = arm.ik(T)
@@ -274,7 +274,7 @@ def test_below_148_mm_the_printed_inverse_is_wrong_and_ours_is_right():
     rows = IRB140.ik(T)
     solved(IRB140, T, rows)
     assert np.nanmin(gap(IRB140, rows, q[:, None]).max(-1), axis=1).max() < 1e-7
-    # The line of listing 1, with the listing's names:
+    # The formula of listing 1, with the names of its variables:
     triangle_angle = np.arcsin(np.clip(0.38 * front * np.sin(q[:, 2] - np.pi / 2) / d, -1, 1))
     lift_angle = np.arctan2(centre[:, 2] - 0.352, rho - front * 0.07)
     printed = -front * (np.pi / 2 + triangle_angle - lift_angle)
@@ -282,7 +282,8 @@ def test_below_148_mm_the_printed_inverse_is_wrong_and_ours_is_right():
     clear = abs(d - edge) > 1e-4
     assert (wrong == near)[clear].all()
     there = IRB140.frames(np.column_stack([q[:, 0], printed, q[:, 2:]]))[:, 4].translation
-    assert 0.055 < np.linalg.norm(there - centre, axis=-1).max() < 0.0601  # "by up to 60.0 mm"
+    # the errata say "by up to 60.0 mm"
+    assert 0.055 < np.linalg.norm(there - centre, axis=-1).max() < 0.0601
 
 
 @pytest.mark.parametrize("machine", [m for m in SIX if not m.wrist["lateral"]], ids=repr)
@@ -400,7 +401,7 @@ def compare(arm, case, unit=1.0):
         assert sorted(places) == np.flatnonzero(exists).tolist()
         for place, q in zip(places, wanted, strict=True):
             assert turns(rows[place], q).max() < atol
-    else:  # coinciding rows occur in each of their places
+    else:  # a solution that belongs to several rows is in all of them
         for shoulder, elbow, _ in {tuple(arm.branches[i]) for i in np.flatnonzero(exists)}:
             assert exists[[arm.branch(shoulder, elbow, 1), arm.branch(shoulder, elbow, -1)]].all()
     return rows
@@ -462,7 +463,7 @@ def test_unsuitable_chains_are_refused_and_the_axis_is_named(links, message):
 
 
 def random_arm(rng):
-    """A six-axis arm with any signs, offsets and tool that `spherical_wrist` promises to accept."""
+    """A random six-axis arm with signs, offsets and a tool that `spherical_wrist` must accept."""
     sign = rng.choice([-1.0, 1.0], 6)
     lateral = rng.choice([0.0, 0.12, -0.2])
     heel, bow = rng.choice([0.0, 0.05, -0.04], 2)

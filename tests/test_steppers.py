@@ -77,7 +77,7 @@ def test_rounding_errors_do_not_add_up_over_10_000_moves():
     pulses = np.diff(counts(q, per_degree), axis=0)
     assert pulses.dtype.kind == "i"
     exact = (q - q[0]) / deg * per_degree
-    # half a pulse of error at the start and half a pulse at the station
+    # the error is at most half a pulse at the start and half a pulse at the station
     assert abs(np.cumsum(pulses, axis=0) - exact[1:]).max() <= 1
     there_and_back = np.tile([[0.0], [1 / 3 * deg]], (5000, 1))
     assert np.diff(counts(there_and_back, 1.3), axis=0).sum() == 0
@@ -176,7 +176,7 @@ def test_the_frequency_limit_is_respected(kind, move):
         # the limit also applies from one move to the next
         assert (times >= (1 - 1e-6) / LIMIT).all()
     if len(move.t) > 1:
-        # and the limit is reached
+        # in every move the fastest motor reaches the limit
         assert abs(move.frequencies).max(axis=-1) == pytest.approx(LIMIT)
 
 
@@ -234,7 +234,7 @@ def test_only_the_straight_move_is_straight(points):
         across = np.cross(path - points[0], way)
         off[name] = np.linalg.norm(across, axis=1).max()
         assert np.linalg.norm(path[-1] - points[1]) < 2e-3
-    step = 3 * 0.5 * (1 / PER_DEGREE).max() * deg * 2.2  # half a pulse of each motor at full reach
+    step = 3 * 0.5 * (1 / PER_DEGREE).max() * deg * 2.2  # half a pulse of all motors, at full reach
     assert off["b"] < step < min(off["a"], off["d"]) / 5
     assert b.duration >= d.duration - 1e-12  # no move within the limit is faster than d
 
@@ -521,7 +521,7 @@ def test_the_field_of_any_number_of_windings_turns_evenly(motor):
 def test_the_step_follows_from_windings_poles_and_teeth(motor):
     step = motor.step / deg
     halves = 2 if motor.drive == "half-step" else 1
-    if motor.rotor == "active":  # a magnet with two poles; 003, II.3.1: 10 degrees or more
+    if motor.rotor == "active":  # a magnet with two poles, whose step is at least 10° (003, II.3.1)
         poles = 2 if motor.motor == "bipolar" else 1
         assert step == pytest.approx(360 / (motor.windings * poles * halves)) and step >= 10
     else:
@@ -546,7 +546,7 @@ def test_two_windings_hold_sqrt_2_times_the_torque_of_one(motor, strong):
 def test_motor_holds_its_position_exactly_up_to_its_holding_torque(motor):
     below, above = (motor.run([], [], load=k * motor.holding_torque) for k in (0.99, 1.01))
     assert abs(np.diff(below.angle)).max() < 1e-9 and below.lost == 0
-    # the load has pulled the rotor back almost to the maximum of the sine
+    # the load has pulled the rotor back almost to the point of maximum torque
     bent = motor.periods * (motor.run([], []).angle[0] - below.angle[0])
     assert np.sin(bent) == pytest.approx(
         0.99 * motor.holding_torque / motor.torque / abs(motor.pulls[0])
@@ -693,7 +693,7 @@ def test_ramp_reaches_frequencies_above_the_start_frequency():
     motor = Stepper(drive="two-phase")
     assert motor.run(*even(48, 200), load_inertia=1e-6).lost == 48
     assert motor.run(ramp(48, 40, 200, 0.15), np.ones(48), load_inertia=1e-6).lost == 0
-    # a ramp that is too short loses some steps
+    # if the ramp is too short, some steps are lost
     assert 0 < motor.run(ramp(48, 40, 200, 0.05), np.ones(48), load_inertia=1e-6).lost < 48
 
 

@@ -1,5 +1,5 @@
-"""`python -m robokin.course summary`: the teacher's table, compared with a count made here.
-test_summary_attacked.py has the attacks by students.
+"""`python -m robokin.course summary`: the teacher's table, compared with counts made here.
+test_summary_attacked.py tests attacks by students.
 """
 
 import functools
@@ -53,8 +53,8 @@ def drawn_report(name, slug, dice):
 
 @pytest.fixture(scope="module")
 def handed(tmp_path_factory):
-    """A folder with thirty students' reports, one of them truncated, among other files; and the
-    random data of each.
+    """A folder with the reports of thirty students, one of them truncated, and other
+    files; the random data of each intact report.
     """
     folder, dice = tmp_path_factory.mktemp("handed"), random.Random(14)
     drawn = {name: drawn_report(name, SLUGS[k % 3], dice) for k, name in enumerate(NAMES)}
@@ -77,10 +77,10 @@ def question(name):
 
 
 def words(name, choice):
-    """A guess in the words of the lab's own page."""
+    """The text of a guess, as on the lab's page."""
     asked = course.predict(name)
     if choice is None or asked.unit:
-        return choice or ""  # "b" is not a number
+        return choice or ""  # a typed answer has no letter
     return f"{choice}) {asked.options['abcd'.index(choice)].text}".replace("`", "")
 
 
@@ -406,7 +406,7 @@ def test_notebooks_are_judged_in_parallel_in_any_order(tmp_path, monkeypatch):
                 now.add(name)
                 most.append(len(now))
             if name in "ab":
-                both.wait(60)  # they run at the same time, and end in this order
+                both.wait(60)  # a and b run at the same time; `first` ends first
             if name == second:
                 assert ended.wait(60)
             with lock:

@@ -163,7 +163,7 @@ def test_a_wrap_spoils_two_central_differences_and_one_plain_difference():
 
 
 def test_suggested_values_change_only_the_false_speed():
-    """Regression: the value to try used to be the duration, which scales both speeds equally."""
+    """Regression: the values to try used to be durations, which scale both speeds equally."""
     (name,) = re.findall(r"Try other values of `(\w+)`", sources("02")["speed-look"])
     found = [run("02", "setup", "speed-code")[0]]
     for value in tries("02", "speed-code", name):
@@ -364,7 +364,8 @@ def test_omega_is_not_used_in_lab_04():
 def test_elbow_plus_one_bends_to_the_left_in_both_labs():
     q1, q2 = SCARA.ik(ScaraPose((0.25, 0.1, 0.1)))[SCARA.branch(+1), :2]
     first, second = (np.array([np.cos(x), np.sin(x)]) for x in (q1, q1 + q2))
-    assert first[0] * second[1] - first[1] * second[0] > 0 and q2 > 0  # left of the first lever
+    # the second lever points to the left of the first
+    assert first[0] * second[1] - first[1] * second[0] > 0 and q2 > 0
     assert "+1 bends to the left, −1 to the right" in sources("04")["triangle-formula"]
     assert "the elbow that bends to the left: joint 2 positive" in sources("05")["setup"]
     for text in (*sources("04").values(), *sources("05").values()):
@@ -405,7 +406,7 @@ def test_the_jump_depends_on_the_total_time():
 
 
 def test_stated_distances_from_singularities_are_correct():
-    q3 = -60 * deg  # the wrist centre is over axis 1 where 100 cos q2 + 200 cos(q2 + q3) = 0
+    q3 = -60 * deg  # the wrist centre is on axis 1 where 100 cos q2 + 200 cos(q2 + q3) = 0
     q2 = np.arctan2(100 + 200 * np.cos(q3), 200 * np.sin(q3))
     shoulder = np.array([20 * deg, q2, q3, *np.array([30, 50, 10]) * deg])
     assert abs(q2 - 70 * deg) < 150 * deg and distance_from_singularity(ITMO6R, shoulder) < 1e-12
@@ -486,9 +487,9 @@ def test_exactly_one_option_is_true_of_the_200_postures():
     q[:, 4] = 1e-9
     rotations = ITMO6R.frames(q).as_matrix()[..., :3, :3]
     h33 = (rotations[:, 3].swapaxes(1, 2) @ rotations[:, 6])[:, 2, 2]
-    assert 0 < (h33 > 1).sum() < 200  # for some postures the root is of a negative number
-    # The lab's chain rounds in a different order from the package's, so only shares can agree, not
-    # counts.
+    assert 0 < (h33 > 1).sum() < 200  # some postures give the root a negative argument
+    # The lab's chain and the package's round in different orders, so the percentages can agree only
+    # roughly.
     lost = number(r"NaN, in (\d+)% of the postures", choices[right].reason)
     assert lost == pytest.approx(100 * (h33 > 1).mean(), abs=8)
 

@@ -207,7 +207,7 @@ def test_straight_line_takes_longer_if_the_motor_at_the_limit_changes():
         if ((steps > 0).any(axis=0) & (steps < 0).any(axis=0)).any() or abs(
             n[-1] - n[0]
         ).max() < 200:
-            continue  # a motor reverses, or rounding matters
+            continue  # skip lines where a motor reverses or rounding matters
         changes = len({*abs(steps).argmax(axis=1).tolist()}) > 1
         d = abs(n[-1] - n[0]).max() / LIMIT
         share = move.duration / d
@@ -285,7 +285,7 @@ def test_elbows_are_exchanged_on_the_stated_side():
         program = exercise.steps.program(each)
         for x in (1.0, -1.0):
             elbow = program(np.zeros(2), np.array([x, 0.5]), 1, 0.8, 1)
-            if x * elbow[1] - 0.5 * elbow[0] > 0:  # to the left of the line to the tip
+            if x * elbow[1] - 0.5 * elbow[0] > 0:  # the elbow is left of the line to the tip
                 sides.append("right" if x > 0 else "left")
     assert sides == ["right", "left"]
     assert [re.search(r"to its (\w+) the two", says)[1] for _, says, _ in said] == sides

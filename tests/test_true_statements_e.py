@@ -41,7 +41,7 @@ def about(axis, angle):
 
 
 def written(lab):
-    """The Markdown and Python of a lab's files, on one line."""
+    """The text of all exercise files of a lab, on one line."""
     (ours,) = [NOTEBOOKS / "exercises" / lab]
     files = [*ours.glob("*.md"), *(ours.parents[2] / "robokin" / "course").glob(f"{lab}.py")]
     text = " ".join(each.read_text(encoding="utf-8") for each in files)
@@ -82,7 +82,8 @@ def test_angles_can_be_interpolated_if_only_one_of_them_changes():
             half = middle(one, two)
             assert apart(turned(*one), half) == pytest.approx(whole / 2, abs=1e-6)
             assert apart(half, turned(*two)) == pytest.approx(whole / 2, abs=1e-6)
-    back = np.array([0, 0, 0.0]), np.array([np.pi, np.pi / 3, np.pi])  # 120 degrees about y
+    # the second triple of angles is a rotation by 120 degrees about y
+    back = np.array([0, 0, 0.0]), np.array([np.pi, np.pi / 3, np.pi])
     assert apart(turned(*back[1]), about([0, 1, 0], 2 * np.pi / 3)) < 1e-6
     assert apart(middle(*back), about([0, 1, 0], np.pi / 3)) > 60 * deg
 
@@ -147,7 +148,7 @@ def test_shorter_intervals_do_not_show_smaller_changes():
     assert "What doubles at half the step belongs to the method" in flat("03", "short")
     told = "At the same blend the quintic gives the tool 1.5 times the parabola's greatest"
     assert told in written("irb140_motion")
-    # x is the parameter of the corner; control points are shares of the path to via
+    # x is the parameter of the corner; control points are fractions of the path to via
     x = np.linspace(0, 1, 1001)
     peaks = []
     for controls in ([0, 1, 0], [0, 0.4, 0.8, 0.8, 0.4, 0]):
@@ -271,7 +272,7 @@ def test_a_mirror_is_orthogonal_and_phi_loses_digits_as_stated():
             psi = rng.uniform(-3, 3)
             M = about([0, 0, 1], phi) @ about([0, 1, 0], theta) @ about([0, 0, 1], psi)
             back = about([1, 0, 0], 0.7)
-            M = back.T @ (back @ M)  # rounded like the result of a product
+            M = back.T @ (back @ M)  # rounded like a product of matrices
             off.append(abs(np.exp(1j * np.arctan2(M[1, 2], M[0, 2])) - np.exp(1j * phi)))
         worst[theta] = max(off)
     assert worst[1e-9] < 1e-6 and 1e-4 < worst[5e-14] < 0.1
@@ -390,7 +391,7 @@ def test_front_row_is_past_joint_1s_limit_for_far_poses_straight_behind():
     _, options, _ = asked("puma560_branches.p4")
     (far,) = numbers(r"^(\d+) mm straight behind axis 1", options[0].second)
     for rho, allowed in ((300, True), (400, True), (far, False), (700, False)):
-        q1 = 180 - np.arcsin(150.05 / rho) / deg  # the front row, up to the sign
+        q1 = 180 - np.arcsin(150.05 / rho) / deg  # joint 1 of the front row, up to the sign
         assert (q1 <= 160) == allowed
 
 
@@ -463,7 +464,7 @@ def test_ranges_of_alpha_and_gamma_are_as_stated():
     assert (np.diff(off) < 0).all() and off[-1] < 0.01
     (x,) = numbers(r"With K at \((\S+), 0\) m gamma is above 180° for every alpha", said)
     for alpha in np.linspace(np.arccos((5 - x * x) / 4), np.pi, 201):
-        away = np.sqrt(2 - 2 * np.cos(alpha))  # BK, and the angle at O of the triangle O B K
+        away = np.sqrt(2 - 2 * np.cos(alpha))  # the side BK, then the angle at O of triangle OBK
         at_O = np.arccos(np.clip((1 + x * x - away**2) / (2 * abs(x)), -1, 1))
         assert at_O > 1e-3, "gamma is the direction of K plus this angle"
 

@@ -1,4 +1,4 @@
-"""Statements that the last readers of the labs refuted, computed again."""
+"""Statements that the last readers of the labs refuted, recomputed."""
 
 import math
 import re
@@ -16,7 +16,7 @@ from robokin.course import book
 
 
 def test_two_pairs_of_rows_coincide_at_the_suggested_pose():
-    """The tool of the first cell: half a turn about z, then a quarter about y."""
+    """The first cell rotates the tool half a turn about z, then a quarter turn about y."""
     typed = re.search(
         r"type x (\S+), y (\S+), z (\S+), roll (\S+), pitch (\S+), yaw (\S+), compare rows 2 and 3",
         flat("06", "drag-target-look"),
@@ -35,7 +35,7 @@ def test_two_pairs_of_rows_coincide_at_the_suggested_pose():
 
 
 def test_greatest_speed_of_the_sinking_arms_joint_2_is_as_shown():
-    """cos rule: L2^2 = r^2 + L1^2 - 2 r L1 cos(gamma), with the height falling 1 m each second."""
+    """By the law of cosines, L2^2 = r^2 + L1^2 - 2 r L1 cos(gamma); the tool sinks at 1 m/s."""
     (count, told) = numbers(
         r"greatest speed of (\d+) samples (\S+) °/s \(joint 2\)", shown("08", "zone-player")
     )
@@ -79,7 +79,7 @@ def test_searching_inverse_stops_less_than_1e_8_m_from_the_point():
 
 
 def test_greatest_accelerations_of_both_corners_are_as_shown():
-    """By central differences of fourth order, 2 ms apart, every 1 ms near the corner."""
+    """The accelerations are fourth-order central differences of samples 2 ms apart."""
     row = IRB140.branch(+1, +1, -1)
     shown_numbers = re.findall(
         r"\(blend (\S+)\) (\S+) rad/s²", book.find("irb140_motion.p7", "predictions").view()
@@ -100,7 +100,7 @@ def test_greatest_accelerations_of_both_corners_are_as_shown():
 
 
 def test_both_corners_round_paths_of_the_suggested_joints_class():
-    """The class that the lab proposes, with the line as it is printed there."""
+    """Test the class suggested in the lab, with the line of code printed there."""
     (line,) = re.findall(r"returns `(Joints\(.*?)`, and round", flat("03", "deeper-own"))
 
     class Joints:

@@ -22,7 +22,7 @@ lengths = pytest.mark.parametrize("l1, l2", [(1, 1), (1, 1.5), (2, 0.3), (0.3, 2
 
 
 def elbows(arm, rows):
-    """The positions (x2, y2) of the elbow, the document's unknown."""
+    """The positions (x2, y2) of the elbow, the unknowns of the document."""
     return arm.frames(rows)[..., 1].translation[..., :2]
 
 
@@ -82,7 +82,7 @@ def test_ik_is_correct_at_and_near_x3_equal_to_zero(x3):
     tiny = arm.ik((x3, 0.0))  # the tip is on the base, or almost
     np.testing.assert_allclose(arm.fk(tiny).translation, [(x3, 0, 0)] * 2, atol=1e-15)
     assert abs(tiny[:, 1]) == pytest.approx(np.pi, abs=2e-9)
-    if x3:  # then link 1 is perpendicular to the line to the tip, on either side
+    if x3:  # link 1 is then perpendicular to the line to the tip, on either side
         ahead = 0 if x3 > 0 else np.pi
         assert turns(tiny[:, 0], [ahead - np.pi / 2, ahead + np.pi / 2]).max() < 1e-9
 
@@ -202,7 +202,8 @@ def general():
     x1, y1, x3, y3, l1, l2 = symbols = sp.symbols("x1 y1 x3 y3 l1 l2")
     dx, dy = x3 - x1, y3 - y1
     d2 = dx**2 + dy**2
-    # the foot of the elbow on the line from base to tip, as a share of its length
+    # the foot of the perpendicular from the elbow to the line from base to tip, as a fraction of
+    # the length of that line
     along = (d2 + l1**2 - l2**2) / (2 * d2)
     across = sp.sqrt(l1**2 / d2 - along**2)
     return symbols, [
@@ -235,8 +236,8 @@ def test_the_general_solution_solves_the_two_circles():
 
 
 def c_source(name, symbols, expressions):
-    """A C function of doubles, out[] last (the document's casts to int, errata S2-c, are left
-    out).
+    """A C function of doubles with out[] as its last argument, without the document's casts to int
+    (errata S2-c).
     """
     steps, results = sp.cse(expressions)
     lines = [f"    const double {target} = {sp.ccode(step)};" for target, step in steps]
