@@ -380,7 +380,7 @@ def test_the_same_page_in_several_folders_counts_once(tmp_path):
 
 
 def stub(wait=lambda name: None):
-    """A judge that runs nothing."""
+    """A stand-in for the judge that runs nothing."""
 
     def judge(given, who, limits):
         wait(given.path.parent.name)

@@ -112,7 +112,7 @@ def test_last_hint_for_slerp_catches_every_mistake():
             missed = [name for name, lead in wrongs if is_right(lead, pairs + more)]
             assert not missed, (seed, missed)
             old = dict(wrongs)["nlerp of what is not near"]
-            without += is_right(old, pairs + more[:2])  # the cases in the earlier hint
+            without += is_right(old, pairs + more[:2])  # only the earlier cases
     assert without
 
 
@@ -445,10 +445,10 @@ def test_regular_formulas_lose_digits_at_the_stated_angle():
             assert not (off(book_way, h) < 1e-10).any()
             assert (off(made["my_wrist"], h) < 1e-14).all()
     exact, rounded = kinds(1e-6)
-    assert (off(book_way, exact) < 1e-10).all()  # no loss in exact matrices
+    assert (off(book_way, exact) < 1e-10).all()  # exact matrices lose no digits
     far = kinds(2e-6, 400)[1]
     found = np.array([book_way(h, +1) for h in far])
-    assert np.nanmax(off(book_way, far)) > 1e-10  # a loss at 2e-6 rad, after rounding
+    assert np.nanmax(off(book_way, far)) > 1e-10  # rounded ones lose digits
     assert np.isfinite(found).all()
 
 

@@ -170,8 +170,8 @@ def close(got, want, tolerance, modulo=None):
 
 
 def tiny(rng, n):
-    """Zeros and small values of either sign, down to rounding errors; none is a power of ten, since
-    explanations change their wording there.
+    """Zeros and small values of either sign, down to rounding errors; none is a power of ten, where
+    the wording of explanations changes.
     """
     size = rng.choice([-3.0, 3.0], n) * 10.0 ** -rng.integers(1, 17, n)
     return np.where(rng.random(n) < 0.25, 0.0, size)
@@ -367,8 +367,8 @@ def at_limits(arm, rng, n):
 
 @every_arm
 def test_page_chooses_the_same_joint_values(twin, name):
-    """`within`, `representative`, `unwrapped` and `nearest` agree to the last bit, since they use
-    only + - * / and rounding.
+    """`within`, `representative`, `unwrapped` and `nearest` agree with Python to the last bit,
+    since they use only + - * / and rounding.
     """
     arm, rng = ARMS[name], np.random.default_rng(6)
     n = len(arm.links)
@@ -643,8 +643,8 @@ def test_page_computes_the_same_laws_and_derivatives(twin):
 
 
 def test_page_refines_the_same_maxima(twin):
-    """The maxima of a sine, of a corner and of a partly undefined function are refined in the same
-    steps.
+    """Page and Python refine the maxima of a sine, of a corner and of a partly undefined function
+    in the same steps.
     """
     for low, high, decimals in ((0, 3, 1), (0.4, 1.9, 3), (-2, -0.7, 5)):
         got = twin(
