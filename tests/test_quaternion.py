@@ -35,7 +35,7 @@ def same(q, rotation, atol=1e-15):
 
 
 @pytest.mark.parametrize("shape", SHAPES)
-def test_composition_action_and_inverse_equal_scipy(shape):
+def test_composition_action_and_inverse_match_scipy(shape):
     a, b, points = random(shape), random(shape), RNG.normal(size=(*shape, 3))
     same(a @ b, scipy(a) * scipy(b))
     same(a.inverse(), scipy(a).inv())
@@ -47,7 +47,7 @@ def test_composition_action_and_inverse_equal_scipy(shape):
 
 
 @pytest.mark.parametrize("shape", SHAPES)
-def test_angle_axis_equals_scipy_rotation_vector(shape):
+def test_angle_axis_matches_scipy_rotation_vector(shape):
     axis = RNG.normal(size=(*shape, 3))
     axis /= np.linalg.norm(axis, axis=-1, keepdims=True)
     angle = RNG.uniform(-10, 10, shape)
@@ -107,7 +107,7 @@ def test_from_matrix_takes_batches_and_repairs_printed_digits():
 
 @pytest.mark.parametrize("shape", SHAPES)
 @pytest.mark.parametrize("flip", [1, -1])
-def test_slerp_equals_scipy_for_both_signs(shape, flip):
+def test_slerp_matches_scipy_for_both_signs(shape, flip):
     a, b = random(shape), random(shape)
     s = np.array([0, 0.1, 0.5, 0.77, 1])
     ours = a[..., None].slerp(Quaternion(flip * b.wxyz)[..., None], s)
@@ -248,7 +248,7 @@ def test_repr_has_no_negative_zero():
 
 
 @pytest.mark.parametrize("shape", SHAPES)
-def test_angle_to_equals_scipy(shape):
+def test_angle_to_matches_scipy(shape):
     a, b = random(shape), random(shape)
     wanted = (scipy(a).inv() * scipy(b)).magnitude().reshape(shape)
     assert np.allclose(a.angle_to(b), wanted, rtol=0, atol=4e-15)
@@ -274,7 +274,7 @@ def test_angle_to_refuses_wrong_shapes_and_types():
 
 
 @pytest.mark.parametrize("shape", SHAPES)
-def test_roll_pitch_yaw_equal_scipy(shape):
+def test_roll_pitch_yaw_match_scipy(shape):
     q = random(shape)
     angles = np.stack(q.as_roll_pitch_yaw(), axis=-1)
     wanted = scipy(q).as_euler("xyz").reshape(*shape, 3)
@@ -296,8 +296,8 @@ def test_roll_is_zero_at_vertical_pitch(pitch):
 
 @pytest.mark.parametrize("sign", [1, -1])
 def test_roll_pitch_yaw_keep_their_digits_near_vertical_pitch(sign):
-    """The nearer the pitch is to a quarter turn, the fewer digits roll and yaw have; the rotation
-    that they make together keeps all its digits.
+    """The nearer the pitch is to a quarter turn, the fewer correct digits roll and yaw have; the
+    rotation that they make together keeps all its digits.
     """
     rng = np.random.default_rng(15)
     for off in 10.0 ** np.arange(-17, 0.5, 0.25):

@@ -190,7 +190,7 @@ MOVE = steppers.synchronised([0, 0, 0], [40, -20, 8])
 
 @pytest.fixture(scope="module")
 def tried():
-    """The output of two new processes: one with all attempts, and one without."""
+    """The output of two new processes: one makes all attempts to write, the other makes none."""
     runs = [
         subprocess.Popen([sys.executable, __file__, how], stdout=subprocess.PIPE, text=True)
         for how in ("attack", "look")

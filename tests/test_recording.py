@@ -34,7 +34,7 @@ START = Transform(Quaternion.from_angle_axis(90 * deg, -X), (0.2, 0.4, 0.2))
 VIA = Transform(Quaternion.from_angle_axis(45 * deg, Y), (0.65, -0.1, 0.8))
 GOAL = Transform(Quaternion.from_angle_axis(90 * deg, Y), (0.3, 0.3, 0.5))
 T = np.linspace(0, 20, 2001)
-# The jumps in speed at the via pose, rad/s: errata S1, "chain", calculated by other code.
+# The jumps in speed at the via pose, rad/s: errata S1, "chain", calculated by independent code.
 CORNER_JUMP = np.array(
     [
         0.107946862582,
@@ -127,13 +127,13 @@ def test_speed_jump_does_not_depend_on_the_step(count, tolerance):
     assert np.allclose(jump.by, CORNER_JUMP, atol=tolerance)
 
 
-def test_the_speeds_on_both_sides_of_a_corner_are_those_of_the_two_pieces():
+def test_speeds_on_both_sides_of_a_corner_match_the_two_pieces():
     # Two parabolas meet at t = 1.5 with different slopes, so the speeds are known exactly.
     t = np.linspace(0, 3, 301)
     u = t - 1.5
     q = np.zeros((301, 6))
     q[:, 0] = np.where(u < 0, 0.5 * u + 0.1 * u**2, -0.3 * u + 0.2 * u**2)
-    q[:, 1] = 0.2 * u**2  # its speed does not jump
+    q[:, 1] = 0.2 * u**2  # the speed of joint 2 does not jump
     [jump] = record(IRB140, t, q).jumps
     assert (jump.first, jump.last) == (150, 150) and jump.time == 1.5 and jump.motion == ()
     assert jump.before[0] == pytest.approx(0.5, abs=1e-9)
@@ -155,7 +155,7 @@ def test_a_corner_between_two_samples_is_found_between_them():
 
 @pytest.mark.parametrize("share", [0.02, 0.3, 0.7, 0.98])
 @pytest.mark.parametrize("sample", [4, 50, 94])
-def test_faint_part_of_a_corner_belongs_to_it(share, sample):
+def test_small_speed_change_next_to_a_corner_is_not_a_separate_jump(share, sample):
     """A corner shortly after (or before) a sample changes the speeds of two pairs of intervals, one
     of them by 2 % of the jump: too little for a separate jump.
     """
@@ -278,7 +278,7 @@ TEETH = {
 @pytest.mark.parametrize("on", ON.values(), ids=ON)
 @pytest.mark.parametrize("t", [np.linspace(0, 3, 300), UNEVEN], ids=["even", "uneven"])
 def test_every_tooth_of_a_sawtooth_is_a_jump(t, on, teeth, size):
-    """Joint 2 falls back at every tooth; joint 1 does not. The size of each tooth is known."""
+    """Joint 2 jumps at every tooth; joint 1 does not. The size of each tooth is known."""
     up = size * np.searchsorted(teeth, np.arange(300))
     q = np.zeros((300, 6))
     q[:, 0], q[:, 1] = np.sin(t), on(t) + up
@@ -293,7 +293,7 @@ def test_every_tooth_of_a_sawtooth_is_a_jump(t, on, teeth, size):
 
 
 def test_teeth_of_four_samples_or_more_are_jumps():
-    """A sawtooth of three samples may be a sine with the same samples."""
+    """Teeth of three samples are not jumps: a sine can have the same samples."""
     t = np.linspace(0, 2, 201)
     for period, leaps in ((3, False), (4, True), (7, True), (30, True)):
         q = 0.05 * (np.arange(201) % period)[:, None] * [1, 0.5]
@@ -349,7 +349,7 @@ def test_outlying_sample_has_a_jump_on_both_sides():
     np.testing.assert_allclose([jump.by[0] for jump in found.leaps], [0.3, -0.3], atol=0.02)
 
 
-def test_a_jump_where_the_speed_jumps_too_is_a_jump_in_position():
+def test_position_jump_is_found_where_the_speed_jumps_too():
     t = np.linspace(0, 3, 301)
     q = np.stack([np.where(t < 1.505, 0.2 * t, 0.5 - 0.3 * t), 0 * t], axis=-1)
     [leap] = record(two_link(1, 1), t, q).leaps
@@ -360,7 +360,8 @@ QUICK = {
     "point to point": lambda x, width: quintic(width)(x + width / 2),
     "with ramps": lambda x, width: trapezoidal(width)(x + width / 2),
     "at even speed": lambda x, width: np.clip(x / width, -0.5, 0.5),
-    "wrist flip": lambda x, width: np.arctan(2.7 * x / width),  # half of the flip takes `width`
+    # most of a wrist flip happens within `width`
+    "wrist flip": lambda x, width: np.arctan(2.7 * x / width),
     "there and back": lambda x, width: np.where(
         abs(x) < width / 2, np.cos(np.pi * x / width) ** 2, 0
     ),
@@ -392,7 +393,7 @@ def test_ambiguous_samples_are_not_jumps():
     t = np.linspace(0, 1, 101)
     twice = np.searchsorted([50, 51], np.arange(101)) * 0.3
     thrice = np.zeros(101)
-    thrice[[51, 53]] = 0.3  # up, down, up, down
+    thrice[[51, 53]] = 0.3  # the joint goes up, down, up, down
     every_other = np.arange(101) // 2 * 0.3
     for q in (twice, thrice, every_other):
         assert record(two_link(1, 1), t, np.stack([q, 0 * q], axis=-1)).leaps == ()
@@ -450,7 +451,7 @@ def test_jump_at_an_end_is_found(first):
 # --- Limits and greatest values -------------------------------------------------------------------
 
 
-def test_excess_is_how_far_each_sample_is_past_its_limit():
+def test_excess_is_how_far_each_joint_value_is_past_its_limit():
     q = wave(size=2.5)
     q[40:50] = np.nan
     found = record(IRB140, UNEVEN, q)
@@ -631,6 +632,6 @@ def test_continuous_turning_causes_no_warning(recwarn):
         (lambda q: replace(record(IRB140, T, q), leaps=[]), TypeError, "tuple of Jumps"),
     ],
 )
-def test_errors_name_the_wrong_argument_and_what_is_wanted(wrong, kind, message, motions):
+def test_errors_name_the_wrong_argument_and_say_what_is_wanted(wrong, kind, message, motions):
     with pytest.raises(kind, match=message):
         wrong(motions[1])

@@ -60,7 +60,7 @@ def test_methods_arrive_within_the_limits_or_return_nan(arm, name):
     assert np.nanmin(more) > -1e-8
     if name == "least movement":
         assert not failed.any() and np.nanmax(more) < 1e-12
-    else:  # the bound is not trivial: nearly all others move more
+    else:  # the bound is not trivial: the other methods usually move more
         assert np.nanmedian(more) > 0.01
     far = methods(H, 0)[name](arm, 4 * K, before)
     assert np.isnan(far[np.hypot(*(4 * K).T) > arm.reach]).all()
@@ -79,7 +79,7 @@ def test_pseudo_inverse_makes_the_shortest_step(arm):
 
 
 @arms
-def test_gradient_projection_moves_the_joints_towards_their_middle(arm):
+def test_gradient_projection_moves_the_joints_towards_mid_range(arm):
     K, before = tasks(arm, 400)
     plain, pulled = pseudo_inverse(arm, K, before), gradient_projection(arm, K, before)
     middle = np.pi / 2
@@ -98,7 +98,7 @@ def test_equal_angles_are_found_where_they_exist(arm):
     K, before = tasks(arm, 300)
     q = equal_angles(arm, K, before)
     np.testing.assert_allclose(q[:, 1], q[:, 2], rtol=0, atol=1e-9)
-    # along the family beta - alpha changes sign once, or there is no such posture
+    # beta - alpha changes sign once along the family, or no posture has equal angles
     low, high = arm.alpha_range(K, limited=False)
     rows = arm.family(K[:, None], low[:, None] + (high - low)[:, None] * np.linspace(0, 1, 4001))
     signs = np.diff(np.sign(rows[..., 1] - rows[..., 2]), axis=1) != 0
@@ -124,7 +124,7 @@ def test_random_choice_is_uniform():
 
 
 @arms
-def test_the_distance_rule_stops_the_lever_that_comes_near(arm):
+def test_the_distance_rule_stops_the_nearest_approaching_lever(arm):
     K, before = tasks(arm, 200)
     np.testing.assert_array_equal(
         distance_rule((30.0, 30.0))(arm, K, before), pseudo_inverse(arm, K, before)
@@ -141,7 +141,7 @@ def test_the_distance_rule_stops_the_lever_that_comes_near(arm):
         if not comes.any() or np.isnan(step).any() or np.linalg.cond(arm.jacobian(q)[:2]) > 5:
             continue
         if (abs(closer) < 1e-7).any() or (abs(share - 0.5) < 0.01).any():
-            continue  # rounding errors decide here
+            continue  # skip cases that rounding errors decide
         lever = np.where(comes, d, np.inf).argmin()
         alone = distances(arm, q + step * (np.arange(3) == lever), H)[lever] - d[lever]
         if share[lever] < 0.99 / 7:
@@ -165,7 +165,7 @@ def test_joints_stop_at_their_limits(arm, monkeypatch):
 
 
 @arms
-def test_batch_equals_single_tasks(arm):
+def test_batch_gives_the_same_results_as_single_tasks(arm):
     K, before = tasks(arm, 12)
     for name in NAMES:
         if name == "random choice":
@@ -177,7 +177,7 @@ def test_batch_equals_single_tasks(arm):
         assert method(arm, K, before[0]).shape == (12, 3)
 
 
-def test_a_race_starts_each_task_where_the_last_one_ended():
+def test_each_task_of_a_race_starts_where_the_previous_one_ended():
     arm = ARMS["equal"]
     K, before = tasks(arm, 25)
     K[7] = (3.0, 0.2)  # out of reach, so no method moves the arm

@@ -55,7 +55,7 @@ def hostile(tmp_path_factory):
         '%time 1\ncheck("scara_motion.1", answer=least_turn)',
         "def inside(q):\n    return True",
         cell('course_check = check\ncheck("scara_motion.2", inside)', "scara_motion.2: holds."),
-        solution("scara_motion.3"),  # with the numbers of "your name"
+        solution("scara_motion.3"),  # a solution for the numbers of "your name"
         cell('check("scara_motion.3", design, who=who)', "scara_motion.3: holds."),
         "exit()",
         "print('still here')",
@@ -72,7 +72,7 @@ def test_verdicts_match_the_answers(hostile):
     assert two["state"] == "does not hold" and two["points"] == wrong.points < 1
     assert (two["mistake"], two["case"]) == (wrong.mistake, wrong.case) and wrong.mistake
     assert tuple(two["says"]) == wrong.says
-    assert three["state"] == "does not hold"  # right for "your name", but Ada's numbers differ
+    assert three["state"] == "does not hold"  # correct for "your name", but Ada's numbers differ
     assert [state for _, state in objectives(hostile.data)] == ["holds", "begun", "begun"]
     assert hostile.data["who"] == "Ada Lovelace" and hostile.data["lab"] == "scara_motion"
     assert hostile.data["numbers"] == str(course.variant("scara_motion", "Ada Lovelace"))

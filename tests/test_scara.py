@@ -92,10 +92,10 @@ def law(name, total, t):
 
 
 @pytest.mark.parametrize("case", MOTIONS, ids=lambda case: f"{case['law']} elbow {case['elbow']}")
-def test_the_documents_motions_equal_the_oracle(case):
+def test_the_documents_motions_match_the_oracle(case):
     total, step = case["total"], case["step"]
     t = np.arange(0, total, step)
-    # errata S1-j: the printed law leaves the end poses; robokin refuses it
+    # errata S1-j: the printed law misses both end poses; robokin refuses it
     if case["law"] == "blend 0.55":
         with pytest.raises(ValueError, match=r"0\.55"):
             law(case["law"], total, t)
@@ -123,10 +123,8 @@ def test_the_angle_of_a_target_is_not_wrapped():
     assert VIA.as_transform().rotation.as_matrix()[0, 0] == pytest.approx(-1)
 
 
-def test_direction_of_half_a_turn_exists_only_in_targets():
-    """Errata S1-t: 0.01 degrees to either side of START decide the direction of the rotation to
-    VIA.
-    """
+def test_only_targets_determine_the_direction_of_half_a_turn():
+    """Errata S1-t: 0.01 degrees to either side of START decide the direction of rotation to VIA."""
     middles = []
     for off in (-0.01 * deg, 0.01 * deg):
         near = ScaraPose(START.position, off)
@@ -135,7 +133,7 @@ def test_direction_of_half_a_turn_exists_only_in_targets():
     assert middles == pytest.approx([-1, 1], abs=1e-6)
 
 
-def test_zone_inside_the_limits_has_the_area_of_the_errata():
+def test_zone_inside_the_limits_has_the_area_stated_in_the_errata():
     step = 4.0  # mm
     x, y = np.meshgrid(*[np.arange(-460 + step / 2, 460, step)] * 2)
     ways = within(
@@ -203,7 +201,7 @@ def test_scara_pose_without_an_angle_has_angle_zero():
     assert np.allclose(rows[:, :3].sum(-1), 0, rtol=0, atol=1e-15)
 
 
-def test_stretched_and_folded_depend_on_joint_2_only():
+def test_elbow_singularity_depends_only_on_joint_2():
     for q, wanted in (
         ([0.3, 0.0, 0.4, 0.1], True),
         ([0.3, np.pi, 0.4, 0.1], True),

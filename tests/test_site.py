@@ -263,9 +263,8 @@ def test_arm_can_be_dragged(page, address, lab):
     awake(page)
     players = [one for one in page.locator(PLAYER).all() if one.locator("canvas").count()]
     assert players
-    held = page.locator(
-        f"{PLAYER} .rk-handle:not([inert] *)"
-    )  # views that ask a kernel are disabled here
+    # views that need a kernel are disabled here
+    held = page.locator(f"{PLAYER} .rk-handle:not([inert] *)")
     slides = f"{PLAYER} :is(.rk-slide input[type=range], .rk-long input):not([inert] *)"
     held = (held if held.count() else page.locator(slides)).first
     held.scroll_into_view_if_needed()
@@ -357,7 +356,7 @@ def test_the_notes_for_teachers_can_be_left_out(tmp_path, monkeypatch):
     assert asked == [(tmp_path, True), (tmp_path, False)]
 
 
-def test_the_answers_of_the_oral_questions_are_folded(page, address):
+def test_the_answers_to_the_oral_questions_are_folded(page, address):
     page.goto(f"{address}/documents/teaching.html")
     answers = page.locator("details", has=page.get_by_text("Answer", exact=True))
     assert answers.count() == len(LABS) - 1  # lab 00 has no oral question

@@ -54,8 +54,8 @@ def solved(arm, T, rows):
 
 
 def expected(machine, T):
-    """Which rows must exist, decided from distances alone, (..., 8) bool, and the distance of each
-    from the border of existence.
+    """Which rows must exist, as booleans (..., 8) found from distances alone, and the distance of
+    each row from the border of existence.
     """
     w = machine.wrist
     centre = T.translation - w["tool"] * T.rotation.as_matrix()[..., 2]
@@ -127,7 +127,7 @@ def test_poses_moved_out_of_the_workspace_lose_their_rows(machine):
 
 @machines
 @pytest.mark.parametrize("shape", SHAPES + [(0,), (2, 0)])
-def test_every_batch_shape_gives_the_rows_of_its_poses(machine, shape):
+def test_every_batch_shape_gives_the_same_rows_as_single_poses(machine, shape):
     arm = machine.arm
     q = random_joints(arm, np.random.default_rng(6), shape)
     T = arm.fk(q)
@@ -139,7 +139,7 @@ def test_every_batch_shape_gives_the_rows_of_its_poses(machine, shape):
         assert np.nanmin(gap(arm, one, q[i]).max(-1)) < 1e-9
 
 
-def test_a_long_batch_gives_the_rows_of_its_poses():
+def test_a_long_batch_gives_the_same_rows_as_short_batches():
     T = IRB140.fk(random_joints(IRB140, np.random.default_rng(7), (5001,)))
     rows = IRB140.ik(T)
     for block in (slice(0, 7), slice(2040, 2060), slice(4090, 4100), slice(4995, 5001)):
@@ -171,8 +171,8 @@ def test_rows_at_wrist_singular_poses_are_correct(machine, bend):
     fixed = row[:, 3] - q[:, 3] + sense * (row[:, 5] - q[:, 5])
     assert turns(fixed, 0).max() < 1e-8
     if bend in (0, np.pi, -np.pi):
-        # Joint 4 is free and 0 by convention. Near a stretched arm the rounding of the pose already
-        # bends the wrist.
+        # Joint 4 is free and 0 by convention. Near stretched postures, rounding the pose is
+        # enough to bend the wrist.
         assert (row[:, 3] == 0).mean() > 0.98
         assert turns(row[:, 4], bend).max() < 1e-8
         assert (exists.sum(1) % 4 == 0).all()  # both wrist rows exist, although they coincide
@@ -189,7 +189,7 @@ def test_home_has_all_its_rows(machine):
     T = arm.fk(np.zeros(6))
     rows = arm.ik(T)
     exists = solved(arm, T, rows)
-    # the ITMO6R is stretched at home: see below
+    # at home the ITMO6R is stretched, which is tested below
     assert (exists == expected(machine, T)[0]).all() or arm is ITMO6R
     assert abs(rows[exists]).max(-1).min() < 1e-7
 
@@ -214,12 +214,12 @@ def stretched(machine, count, rng, folded=False):
 @six
 @pytest.mark.parametrize("folded", [False, True])
 def test_stretched_and_folded_postures_are_reachable(machine, folded):
-    """A cosine above 1 by a rounding error counts as 1. The two elbow rows coincide, and both
+    """A cosine that rounding makes larger than 1 counts as 1. The two elbow rows coincide, and both
     exist.
     """
     arm = machine.arm
     if arm is IRB140:
-        folded = not folded  # at q3 = 90 degrees the forearm points back down the upper arm
+        folded = not folded  # at q3 = 90 degrees the forearm points back along the upper arm
     q = stretched(machine, 500, np.random.default_rng(9), folded)
     T = arm.fk(q)
     rows = arm.ik(T)
@@ -274,7 +274,7 @@ def test_below_148_mm_the_printed_inverse_is_wrong_and_ours_is_right():
     rows = IRB140.ik(T)
     solved(IRB140, T, rows)
     assert np.nanmin(gap(IRB140, rows, q[:, None]).max(-1), axis=1).max() < 1e-7
-    # The line of listing 1, with the listing's names:
+    # The formula of listing 1, with the names of its variables:
     triangle_angle = np.arcsin(np.clip(0.38 * front * np.sin(q[:, 2] - np.pi / 2) / d, -1, 1))
     lift_angle = np.arctan2(centre[:, 2] - 0.352, rho - front * 0.07)
     printed = -front * (np.pi / 2 + triangle_angle - lift_angle)
@@ -282,7 +282,8 @@ def test_below_148_mm_the_printed_inverse_is_wrong_and_ours_is_right():
     clear = abs(d - edge) > 1e-4
     assert (wrong == near)[clear].all()
     there = IRB140.frames(np.column_stack([q[:, 0], printed, q[:, 2:]]))[:, 4].translation
-    assert 0.055 < np.linalg.norm(there - centre, axis=-1).max() < 0.0601  # "by up to 60.0 mm"
+    # the errata say "by up to 60.0 mm"
+    assert 0.055 < np.linalg.norm(there - centre, axis=-1).max() < 0.0601
 
 
 @pytest.mark.parametrize("machine", [m for m in SIX if not m.wrist["lateral"]], ids=repr)
@@ -308,7 +309,7 @@ def test_joint_1_is_free_at_shoulder_singular_poses(machine):
             assert (rows[..., 0][exists] == np.broadcast_to(front, exists.shape)[exists]).all()
 
 
-def test_the_pumas_shoulder_rows_meet_where_its_wrist_touches_the_cylinder():
+def test_the_pumas_front_and_back_rows_coincide_at_distance_d3_from_axis_1():
     """The PUMA's wrist centre cannot come nearer to axis 1 than d3; at that distance front and back
     coincide, and the row is repeated.
     """
@@ -385,7 +386,7 @@ def test_negative_zero_in_a_pose_gives_finite_rows(machine):
 
 
 def compare(arm, case, unit=1.0):
-    """Check one reference case: exactly its rows exist, in the places that their flags give."""
+    """Check one reference case: exactly its rows exist, in the places given by their flags."""
     T = transform(case["T"], unit)
     rows = arm.ik(T)
     exists = solved(arm, T, rows)
@@ -400,7 +401,7 @@ def compare(arm, case, unit=1.0):
         assert sorted(places) == np.flatnonzero(exists).tolist()
         for place, q in zip(places, wanted, strict=True):
             assert turns(rows[place], q).max() < atol
-    else:  # coinciding rows occur in each of their places
+    else:  # a solution that belongs to several rows is in all of them
         for shoulder, elbow, _ in {tuple(arm.branches[i]) for i in np.flatnonzero(exists)}:
             assert exists[[arm.branch(shoulder, elbow, 1), arm.branch(shoulder, elbow, -1)]].all()
     return rows
@@ -416,7 +417,7 @@ for case in oracle("itmo6r")["cases"]:
     CASES,
     ids=[f"{arm.name}-{i}-{case['kind']}" for i, (arm, case, _) in enumerate(CASES)],
 )
-def test_rows_equal_the_reference_case(arm, case, unit):
+def test_rows_match_the_reference_case(arm, case, unit):
     compare(arm, case, unit)
 
 
@@ -456,13 +457,13 @@ X, Y, Z = np.eye(3)
         (changed(4, before=at(0, 0, 0)), "forearm"),
     ],
 )
-def test_unsuitable_chains_are_refused_with_the_axis(links, message):
+def test_unsuitable_chains_are_refused_and_the_axis_is_named(links, message):
     with pytest.raises(ValueError, match=f"links: wanted.*{message}"):
         spherical_wrist("crooked", links, np.array([(-180, 180)] * len(links)) * deg)
 
 
 def random_arm(rng):
-    """A six-axis arm with any signs, offsets and tool that `spherical_wrist` promises to accept."""
+    """A random six-axis arm with signs, offsets and a tool that `spherical_wrist` must accept."""
     sign = rng.choice([-1.0, 1.0], 6)
     lateral = rng.choice([0.0, 0.12, -0.2])
     heel, bow = rng.choice([0.0, 0.05, -0.04], 2)

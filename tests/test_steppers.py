@@ -70,14 +70,14 @@ every_move = pytest.mark.parametrize(
 # ---- whole pulses
 
 
-def test_no_rounding_adds_up_over_10_000_moves():
+def test_rounding_errors_do_not_add_up_over_10_000_moves():
     rng = np.random.default_rng(1)
     q = rng.uniform(-np.pi, np.pi, (10_001, 3))
     per_degree = np.array([10 / 3, 7.77, 0.1])
     pulses = np.diff(counts(q, per_degree), axis=0)
     assert pulses.dtype.kind == "i"
     exact = (q - q[0]) / deg * per_degree
-    # half a pulse of error at the start and half a pulse at the station
+    # the error is at most half a pulse at the start and half a pulse at the station
     assert abs(np.cumsum(pulses, axis=0) - exact[1:]).max() <= 1
     there_and_back = np.tile([[0.0], [1 / 3 * deg]], (5000, 1))
     assert np.diff(counts(there_and_back, 1.3), axis=0).sum() == 0
@@ -120,7 +120,7 @@ def test_angles_in_degrees_cause_a_warning():
 
 
 @pytest.mark.parametrize("case", CASES, ids=[str(i) for i in range(len(CASES))])
-def test_frequencies_and_times_equal_the_reference_cases(case):
+def test_frequencies_and_times_match_the_reference_cases(case):
     assert frequencies(case["pulses"]) == pytest.approx(case["frequencies"], rel=1e-12)
     move = synchronised(np.zeros(3), case["pulses"])
     assert move.duration == pytest.approx(case["time"], rel=1e-12)
@@ -140,7 +140,7 @@ def test_frequencies_solve_the_corrected_linear_program(phi):
     assert (frequencies(phi)[~moving] == 0).all()
 
 
-def test_the_printed_conditions_make_the_longest_motor_the_slowest():
+def test_the_printed_conditions_make_the_motor_with_most_pulses_the_slowest():
     phi = np.array([1000.0, 500, 250])
     printed = linprog(
         -phi, A_eq=[[1000, -500, 0], [1000, 0, -250]], b_eq=[0, 0], bounds=[(0, LIMIT)] * 3
@@ -176,7 +176,7 @@ def test_the_frequency_limit_is_respected(kind, move):
         # the limit also applies from one move to the next
         assert (times >= (1 - 1e-6) / LIMIT).all()
     if len(move.t) > 1:
-        # and the limit is reached
+        # in every move the fastest motor reaches the limit
         assert abs(move.frequencies).max(axis=-1) == pytest.approx(LIMIT)
 
 
@@ -206,7 +206,7 @@ def test_synchronised_motors_start_and_stop_together_within_one_pulse(start, goa
 
 
 @pytest.mark.parametrize("start, goal", PAIRS)
-def test_unsynchronised_motors_stop_one_by_one(start, goal):
+def test_unsynchronised_motors_stop_one_after_another(start, goal):
     move, together = unsynchronised(start, goal), synchronised(start, goal)
     for (times, _), n in zip(move.pulses(), abs(goal - start), strict=True):
         if n:
@@ -234,12 +234,12 @@ def test_only_the_straight_move_is_straight(points):
         across = np.cross(path - points[0], way)
         off[name] = np.linalg.norm(across, axis=1).max()
         assert np.linalg.norm(path[-1] - points[1]) < 2e-3
-    step = 3 * 0.5 * (1 / PER_DEGREE).max() * deg * 2.2  # half a pulse of each motor at full reach
+    step = 3 * 0.5 * (1 / PER_DEGREE).max() * deg * 2.2  # half a pulse of all motors, at full reach
     assert off["b"] < step < min(off["a"], off["d"]) / 5
     assert b.duration >= d.duration - 1e-12  # no move within the limit is faster than d
 
 
-def test_motors_turn_back_in_move_c_and_not_in_move_b():
+def test_motors_reverse_in_move_c_but_not_in_move_b():
     for points, turning in ((B, [0, 0, 0]), (C, [0, 1, 1])):
         trains = straight(ARM, *points, PER_DEGREE).pulses()
         assert [(np.diff(signs) != 0).sum() for _, signs in trains] == turning
@@ -421,7 +421,7 @@ def printed(text):
     return np.array([[mark == "+" for mark in line] for line in text.split()])
 
 
-def test_phases_equal_the_documents_two_tables():
+def test_phases_match_both_tables_of_the_document():
     assert (phases("wave", "unipolar") == printed("+... .+.. ..+. ...+")).all()
     bipolar = phases("two-phase", "bipolar")
     assert ((bipolar == 1) == printed("+.+. .++. .+.+ +..+")).all()
@@ -459,7 +459,7 @@ def test_fields_cancel_in_table_2_with_the_names_of_table_1():
     assert abs(field) == pytest.approx([0, np.sqrt(2), 0, np.sqrt(2)])
 
 
-def test_the_order_of_the_rows_gives_the_direction():
+def test_the_order_of_the_rows_determines_the_direction():
     table = phases("wave", "unipolar")
     assert (energised(table, [1, 1, 1, 1]) == table[[0, 1, 2, 3, 0]]).all()
     assert (energised(table, [-1, -1, 1]) == table[[0, 3, 2, 3]]).all()
@@ -521,7 +521,7 @@ def test_the_field_of_any_number_of_windings_turns_evenly(motor):
 def test_the_step_follows_from_windings_poles_and_teeth(motor):
     step = motor.step / deg
     halves = 2 if motor.drive == "half-step" else 1
-    if motor.rotor == "active":  # a magnet with two poles; 003, II.3.1: 10 degrees or more
+    if motor.rotor == "active":  # a magnet with two poles, whose step is at least 10° (003, II.3.1)
         poles = 2 if motor.motor == "bipolar" else 1
         assert step == pytest.approx(360 / (motor.windings * poles * halves)) and step >= 10
     else:
@@ -546,7 +546,7 @@ def test_two_windings_hold_sqrt_2_times_the_torque_of_one(motor, strong):
 def test_motor_holds_its_position_exactly_up_to_its_holding_torque(motor):
     below, above = (motor.run([], [], load=k * motor.holding_torque) for k in (0.99, 1.01))
     assert abs(np.diff(below.angle)).max() < 1e-9 and below.lost == 0
-    # the load has pulled the rotor back almost to the maximum of the sine
+    # the load has pulled the rotor back almost to the point of maximum torque
     bent = motor.periods * (motor.run([], []).angle[0] - below.angle[0])
     assert np.sin(bent) == pytest.approx(
         0.99 * motor.holding_torque / motor.torque / abs(motor.pulls[0])
@@ -591,7 +591,7 @@ RUNS = {
 
 
 @pytest.mark.parametrize("name", RUNS)
-def test_run_equals_scipy_integration(name):
+def test_run_matches_scipy_integration(name):
     motor, frequency, load, load_inertia = RUNS[name]
     t, signs = even(12, frequency)
     run = motor.run(t, signs, load, load_inertia)
@@ -693,7 +693,7 @@ def test_ramp_reaches_frequencies_above_the_start_frequency():
     motor = Stepper(drive="two-phase")
     assert motor.run(*even(48, 200), load_inertia=1e-6).lost == 48
     assert motor.run(ramp(48, 40, 200, 0.15), np.ones(48), load_inertia=1e-6).lost == 0
-    # a ramp that is too short loses some steps
+    # if the ramp is too short, some steps are lost
     assert 0 < motor.run(ramp(48, 40, 200, 0.05), np.ones(48), load_inertia=1e-6).lost < 48
 
 
@@ -718,7 +718,7 @@ def test_number_of_pulses_of_a_ramp_is_the_integral_of_its_frequency(asked):
     assert 1 / end - 1e-12 <= gaps.min() and gaps.max() <= 1 / start + 1e-12
 
 
-def test_constant_ramp_equals_a_constant_move():
+def test_constant_ramp_matches_a_move_at_constant_frequency():
     times, signs = synchronised([0], [37], 250).pulses()[0]
     assert ramp(37, 250, 250, 1.0) == pytest.approx(times) and signs.sum() == 37
     for no_time in (0.0, 1e-9, 5e-324):

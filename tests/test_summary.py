@@ -1,5 +1,5 @@
-"""`python -m robokin.course summary`: the teacher's table, compared with a count made here.
-test_summary_attacked.py has the attacks by students.
+"""`python -m robokin.course summary`: the teacher's table, compared with counts made here.
+test_summary_attacked.py tests attacks by students.
 """
 
 import functools
@@ -53,8 +53,8 @@ def drawn_report(name, slug, dice):
 
 @pytest.fixture(scope="module")
 def handed(tmp_path_factory):
-    """A folder with thirty students' reports, one of them truncated, among other files; and the
-    random data of each.
+    """A folder with the reports of thirty students, one of them truncated, and other
+    files; the random data of each intact report.
     """
     folder, dice = tmp_path_factory.mktemp("handed"), random.Random(14)
     drawn = {name: drawn_report(name, SLUGS[k % 3], dice) for k, name in enumerate(NAMES)}
@@ -77,10 +77,10 @@ def question(name):
 
 
 def words(name, choice):
-    """A guess in the words of the lab's own page."""
+    """The text of a guess, as on the lab's page."""
     asked = course.predict(name)
     if choice is None or asked.unit:
-        return choice or ""  # "b" is not a number
+        return choice or ""  # a typed answer has no letter
     return f"{choice}) {asked.options['abcd'.index(choice)].text}".replace("`", "")
 
 
@@ -204,7 +204,7 @@ def test_each_row_links_to_its_own_page(handed, tmp_path):
         assert any("points" in head for head in table_in(tmp_path)[0]) == points
 
 
-def test_numbers_have_units_and_optional_predictions_may_be_missing(tmp_path):
+def test_numbers_have_units_and_optional_predictions_can_be_missing(tmp_path):
     slug = "irb140_motion"
     data = report_of("Ada", slug)
     asked = book.lab(slug).predictions
@@ -380,7 +380,7 @@ def test_the_same_page_in_several_folders_counts_once(tmp_path):
 
 
 def stub(wait=lambda name: None):
-    """A judge that runs nothing."""
+    """A stand-in for the judge that runs nothing."""
 
     def judge(given, who, limits):
         wait(given.path.parent.name)
@@ -406,7 +406,7 @@ def test_notebooks_are_judged_in_parallel_in_any_order(tmp_path, monkeypatch):
                 now.add(name)
                 most.append(len(now))
             if name in "ab":
-                both.wait(60)  # they run at the same time, and end in this order
+                both.wait(60)  # a and b run at the same time; `first` ends first
             if name == second:
                 assert ended.wait(60)
             with lock:
@@ -486,6 +486,6 @@ def test_terminal_shows_progress_on_one_line(tmp_path, monkeypatch, capsys):
         (f"{'x' * 250}/x.ipynb", "x" * 200),
     ],
 )
-def test_path_of_a_notebook_gives_its_student(path, who):
+def test_notebook_path_determines_the_students_name(path, who):
     made = summary.who_of(Path(path))
     assert made == who and normalised(made)

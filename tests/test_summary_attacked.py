@@ -61,7 +61,7 @@ HOSTILE = {
     "half \ud83d of a pair": r"half \ud83d of a pair",
     "tag \U000e0041": r"tag \U000e0041",
     "z\u0335\u0321\u0300" * 20: None,
-    "\u0645\u06cc\u200c\u062e\u0648\u0627\u0647\u0645": None,  # needs its zero-width non-joiner
+    "\u0645\u06cc\u200c\u062e\u0648\u0627\u0647\u0645": None,  # needs the zero-width non-joiner
     "../../summary": None,
     "CON": None,
 }
@@ -118,7 +118,7 @@ def attacked(folder, values):
             each |= {"mistake": value, "says": [value], "case": value}
         for each in data["predictions"]:
             each |= {"choice": value, "right": False, "confusion": value, "later": [value]}
-        name = value if os.name != "nt" else ""  # Windows allows few such names
+        name = value if os.name != "nt" else ""  # Windows allows few of these file names
         name = name.replace("/", "\u2215").replace("\0", "").encode(errors="ignore")[:200]
         put(folder / str(k) / f"_{name.decode(errors='ignore')}.html", data)
 
@@ -163,8 +163,7 @@ def test_student_text_never_runs(browser, server, tmp_path):
         assert [text.replace("`", "") for text in found["remarks"]] == [shown] * 2
         assert found["colours"] == [red] and not found["odd"] and not found["ran"]
     assert all(url.startswith("file:") for url in requests) and asked == [] == said
-    # the second line of defence: something that gets into the page sends no request and does not
-    # run
+    # the second line of defence: injected HTML sends no request and does not run
     view.goto((tmp_path / "summary.html").as_uri())
     hole = f"<img src='{address}/hole.png' onerror='window.ran=1'><link rel=stylesheet href='"
     hole += f"{address}/hole.css'><style>.not {{ color: green }}</style>"

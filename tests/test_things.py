@@ -206,8 +206,8 @@ RED = """() => {
 
 
 def test_new_kind_takes_two_files_and_one_entry(tmp_path, browser):
-    """The recipe of CONTRIBUTING is followed in a copy of robokin; types, formatting, still, film
-    and page are checked.
+    """Follow the recipe in CONTRIBUTING in a copy of robokin; check types, formatting, still, film
+    and page.
     """
     for name in ("robokin", "tests"):
         ignore = shutil.ignore_patterns("__pycache__", "*.ipynb", "benchmarks", "course")
@@ -220,7 +220,7 @@ def test_new_kind_takes_two_files_and_one_entry(tmp_path, browser):
     for place, entry in (
         ("^from .thing import", "from .flag import Flag, PageFlag\nfrom .thing import"),
         (r"^__all__ = \[", '__all__ = ["Flag", '),
-        (r"^PageThing: TypeAlias = \(?\s*", r"\g<0>PageFlag | "),  # the first to be drawn
+        (r"^PageThing: TypeAlias = \(?\s*", r"\g<0>PageFlag | "),  # flags are drawn first
     ):
         text, count = re.subn(place, entry, text, flags=re.M)
         assert count == 1, place

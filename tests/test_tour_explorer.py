@@ -1,5 +1,5 @@
-"""The tour explorer: Python's answers, tested with random tasks, and the page, in JupyterLab with a
-kernel and asleep in a file.
+"""The tour explorer: Python's answers to random tasks, and the view in JupyterLab with a kernel and
+in a file without one.
 """
 
 import itertools
@@ -84,7 +84,7 @@ def test_tours_match_those_of_the_package_for_the_points_in_reach():
             assert told[name]["times"] == list(result.times)
 
 
-def test_best_order_of_many_points_waits_for_release():
+def test_best_order_of_many_points_is_computed_on_release():
     rng = np.random.default_rng(4)
     cloud = some(rng, 60)
     cloud = cloud[workspace(5, 4, cloud).all(axis=-1)][: WHILE_HELD + 1].tolist()
@@ -95,7 +95,7 @@ def test_best_order_of_many_points_waits_for_release():
 
 
 def test_loss_of_the_greedy_tour_is_reported():
-    # errata S0-q: the lure costs two points
+    # errata S0-q: going to the nearest point first costs two points
     said = answered(asked(), SPEEDS)["says"]
     assert said == "Greed loses 2 points: nearest first visits 1 of 4, the best order 3."
     assert "loses nothing" in answered(asked(T=20), SPEEDS)["says"]
@@ -105,7 +105,7 @@ def test_loss_of_the_greedy_tour_is_reported():
     assert "1 of 4 in reach" in answered(away, SPEEDS)["says"]
 
 
-def test_a_start_on_axis_1_has_no_best_order_to_collect():
+def test_no_best_collecting_order_is_given_for_a_start_on_axis_1():
     told = answered(asked(kind="collect", p0=[0, 0, 6.5], T=60), SPEEDS)
     assert told["best"] is None and "on axis 1" in told["says"] and told["greedy"]["order"]
     assert answered(asked(p0=[0, 0, 6.5], T=60), SPEEDS)["best"]["order"]
@@ -120,7 +120,7 @@ def test_tour_below_the_floor_is_reported_with_its_depth():
     assert answered(low | {"l1": 4.0, "l2": 5.0}, SPEEDS)["notes"] == [], "never for l1 <= l2"
 
 
-def test_stored_output_is_small_with_alt_text():
+def test_stored_output_is_small_and_has_alt_text():
     explorer = tour_explorer(CIRCLE)
     assert len(explorer.html) < 57_000
     assert "Greed loses 2 points" in explorer.data["alt"] and explorer.data["alt"] in explorer.html
@@ -238,10 +238,10 @@ tour_explorer(Task(5, 4, 7.5, [0.2] * 3, {FOUR[0].tolist()}, {FOUR[1:].tolist()}
     jupyter.run_all(page, "tours.ipynb")
     root = page.locator(".robokin-player[data-awake]")
     root.wait_for()
-    # use this view from now on: a view that JupyterLab creates again has its initial values
+    # keep using this view: one that JupyterLab recreates has the initial values
     root.evaluate("root => root.setAttribute('data-held', '')")
     root = page.locator(".robokin-player[data-awake][data-held]")
-    before = len(page.complaints)  # complaints from JupyterLab itself
+    before = len(page.complaints)  # JupyterLab's own errors
     _drags(page, root)
     _typed(page, root)
     _out_of_reach(page, root)
@@ -260,8 +260,8 @@ ANSWER = """(root, detail) =>
 
 @pytest.fixture
 def slow(browser, tmp_path):
-    """The explorer, awake in a page: the page, the explorer's element, a function that returns the
-    questions so far, and a function that answers one of them.
+    """An active explorer: its page, its element, a function that returns the questions so far, and
+    a function that answers one of them.
     """
     tour_explorer(CIRCLE).save(tmp_path / "tour.html")
     page = opened(browser)
@@ -311,8 +311,8 @@ def test_late_answer_does_not_undo_changes(slow):
 
 
 @pytest.mark.parametrize("between", ["sleeps", "wakes twice"])
-def test_questions_that_no_kernel_answered_are_repeated(slow, between):
-    """Otherwise the tours would belong to points other than those shown, until the next move."""
+def test_unanswered_questions_are_repeated(slow, between):
+    """Without the repetition, the tours would not match the points shown until the next move."""
     page, root, asked, answer = slow
     typed(page, "T, s, exactly", "29")
     (lost,) = asked()
@@ -337,7 +337,7 @@ def settled(page, root):
 
 
 def shown_task(page):
-    """The task that the page shows, from its own "Copy as Python"."""
+    """The task that the page shows, read with its button "Copy as Python"."""
     page.evaluate("window.copied = null")
     page.locator(".rk-word").last.click()  # Copy as Python
     space = {}

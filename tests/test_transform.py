@@ -19,7 +19,7 @@ def random(shape):
 
 
 @pytest.mark.parametrize("shape", SHAPES)
-def test_composition_inverse_and_action_equal_matrices(shape):
+def test_composition_inverse_and_action_match_matrices(shape):
     a, b, points = random(shape), random(shape), RNG.normal(size=(*shape, 3))
     m, n = a.as_matrix(), b.as_matrix()
     assert (a @ b).shape == a.inverse().shape == shape

@@ -87,7 +87,7 @@ def options(name):
 # --- Lab 01 ---------------------------------------------------------------------------------------
 
 
-def test_transposing_inverts_the_rotation_alone():
+def test_transposing_inverts_only_the_rotation():
     wrong = find("frames_and_quaternions.1", "exercises").text.wrong()
     (mistake,) = [each for each in wrong if each.name == "transposed for inverse"]
     assert "Transposing inverts the rotation R alone." in mistake.says
@@ -98,7 +98,7 @@ def test_transposing_inverts_the_rotation_alone():
     assert np.allclose(pose.T[:3, :3], inverse[:3, :3]) and not np.allclose(pose.T, inverse)
 
 
-def test_trace_formula_loses_its_digits_near_half_a_turn():
+def test_trace_formula_loses_digits_near_half_a_turn():
     before = "opening-setup", "elementary", "product-code", "turning-code"
     (value,) = tries("01", "to-matrix-code", "oblique")
     g, said = run("01", *before, "to-matrix-code", name="oblique", value=value)
@@ -113,7 +113,7 @@ def test_trace_formula_loses_its_digits_near_half_a_turn():
 # --- Lab 02 ---------------------------------------------------------------------------------------
 
 
-def test_the_check_accepts_what_hint_2_approves_and_names_a_motion_with_a_jump():
+def test_check_accepts_what_hint_2_approves_and_reports_jumps():
     lines = find("irb140_kinematics.3", "exercises").hints[1].split("\n")
     program = "\n".join(line[4:] for line in lines if line.startswith("    "))
     task = sources("02")["yourturn-3"]
@@ -162,8 +162,8 @@ def test_a_wrap_spoils_two_central_differences_and_one_plain_difference():
     assert re.search(r"two steps: 314 and 628 rad/s", reply) and "628 rad/s at 10 ms" in reply
 
 
-def test_value_to_try_doubles_the_false_speed_and_keeps_the_true_ones():
-    """Regression: the value to try used to be the duration, which scales both speeds equally."""
+def test_suggested_values_change_only_the_false_speed():
+    """Regression: the values to try used to be durations, which scale both speeds equally."""
     (name,) = re.findall(r"Try other values of `(\w+)`", sources("02")["speed-look"])
     found = [run("02", "setup", "speed-code")[0]]
     for value in tries("02", "speed-code", name):
@@ -178,7 +178,7 @@ def test_value_to_try_doubles_the_false_speed_and_keeps_the_true_ones():
     assert np.allclose(false[:, 5], np.pi / steps, rtol=2e-3)
 
 
-def test_the_cross_product_fails_differently_for_each_value_to_try():
+def test_the_cross_product_fails_differently_for_each_suggested_value():
     before = "setup", "chain-code", "package-code", "split-code", "joint1-code", "triangle-code"
     before += "matrix-code", "wrist-code"
     said = [run("02", *before, "cross-code")[1]]
@@ -277,7 +277,7 @@ def test_the_laws_trade_speed_for_acceleration():
     assert offered == [f"trapezoidal(duration, {a})" for a in (0.1, 0.5)]
 
 
-def test_laws_cell_shows_that_more_speed_means_less_acceleration():
+def test_laws_cell_shows_that_higher_speed_means_lower_acceleration():
     cells = "setup", "lin-code", "ptp-code", "laws-numbers"
     shown = []
     for value in ("quintic(duration)", *tries("03", "laws-numbers", "law")):
@@ -364,7 +364,8 @@ def test_omega_is_not_used_in_lab_04():
 def test_elbow_plus_one_bends_to_the_left_in_both_labs():
     q1, q2 = SCARA.ik(ScaraPose((0.25, 0.1, 0.1)))[SCARA.branch(+1), :2]
     first, second = (np.array([np.cos(x), np.sin(x)]) for x in (q1, q1 + q2))
-    assert first[0] * second[1] - first[1] * second[0] > 0 and q2 > 0  # left of the first lever
+    # the second lever points to the left of the first
+    assert first[0] * second[1] - first[1] * second[0] > 0 and q2 > 0
     assert "+1 bends to the left, −1 to the right" in sources("04")["triangle-formula"]
     assert "the elbow that bends to the left: joint 2 positive" in sources("05")["setup"]
     for text in (*sources("04").values(), *sources("05").values()):
@@ -374,7 +375,7 @@ def test_elbow_plus_one_bends_to_the_left_in_both_labs():
 @pytest.mark.parametrize(
     "cell, name", [("ik-code", "wanted_place"), ("limits-code", "asked_place")]
 )
-def test_positions_to_try_are_in_millimetres(cell, name):
+def test_suggested_positions_are_in_millimetres(cell, name):
     values = tries("04", cell, name)
     assert values and all(value.endswith("* mm") for value in values)
 
@@ -405,7 +406,7 @@ def test_the_jump_depends_on_the_total_time():
 
 
 def test_stated_distances_from_singularities_are_correct():
-    q3 = -60 * deg  # the wrist centre is over axis 1 where 100 cos q2 + 200 cos(q2 + q3) = 0
+    q3 = -60 * deg  # the wrist centre is on axis 1 where 100 cos q2 + 200 cos(q2 + q3) = 0
     q2 = np.arctan2(100 + 200 * np.cos(q3), 200 * np.sin(q3))
     shoulder = np.array([20 * deg, q2, q3, *np.array([30, 50, 10]) * deg])
     assert abs(q2 - 70 * deg) < 150 * deg and distance_from_singularity(ITMO6R, shoulder) < 1e-12
@@ -486,9 +487,9 @@ def test_exactly_one_option_is_true_of_the_200_postures():
     q[:, 4] = 1e-9
     rotations = ITMO6R.frames(q).as_matrix()[..., :3, :3]
     h33 = (rotations[:, 3].swapaxes(1, 2) @ rotations[:, 6])[:, 2, 2]
-    assert 0 < (h33 > 1).sum() < 200  # for some postures the root is of a negative number
-    # The lab's chain rounds in a different order from the package's, so only shares can agree, not
-    # counts.
+    assert 0 < (h33 > 1).sum() < 200  # some postures give the root a negative argument
+    # The lab's chain and the package's round in different orders, so the percentages can agree only
+    # roughly.
     lost = number(r"NaN, in (\d+)% of the postures", choices[right].reason)
     assert lost == pytest.approx(100 * (h33 > 1).mean(), abs=8)
 

@@ -44,7 +44,7 @@ def cells(lab):
 
 
 def said(lab, cell, pattern):
-    """The groups that a pattern matches in a cell; numerals become numbers."""
+    """The groups of a pattern that matches in a cell; numerals are converted to numbers."""
     match = re.search(pattern, re.sub(r"\s+", " ", cells(lab)[cell]))
     assert match, f"{lab} {cell}: no {pattern!r}"
     return [as_number(each) for each in match.groups()]
@@ -84,14 +84,14 @@ def asked(name):
 
 
 def wrist_speeds(q_deg):
-    """The semi-axes of the ellipsoid of all flange velocities, from differences."""
+    """The semi-axes of the ellipsoid of all flange velocities, computed from differences."""
     q = np.array(q_deg) * deg
     steps = 1e-6 * np.eye(6)
     places = PUMA560.fk(np.stack([q + steps, q - steps])).translation
     return np.linalg.svd((places[0] - places[1]).T / 2e-6)[1]
 
 
-def test_joint_5_keeps_the_ellipsoid_in_the_explorer_and_joint_3_flattens_it():
+def test_joint_5_leaves_the_ellipsoid_unchanged_and_joint_3_flattens_it():
     five, three = said("07", "near-look", r"joint 5 to (\S+): it stays.*joint 3 to (\S+)°: it goes")
     before = wrist_speeds([0, 60, -170, 0, 40, 0])
     assert wrist_speeds([0, 60, -170, 0, five, 0]) == pytest.approx(before, rel=1e-6)
@@ -107,7 +107,7 @@ def test_joint_5_keeps_the_ellipsoid_in_the_explorer_and_joint_3_flattens_it():
         assert own[2] / own[0] < 0.1, "one axis is nearly gone"
 
 
-def test_speeds_grow_by_the_stated_factors_ten_times_nearer_to_a_singularity():
+def test_speeds_grow_by_the_stated_factors_ten_times_closer_to_a_singularity():
     told = said(
         "07",
         "cross-look",
@@ -117,7 +117,7 @@ def test_speeds_grow_by_the_stated_factors_ten_times_nearer_to_a_singularity():
     d3, l2, l3 = 150.05, 431.8, np.hypot(431.8, 20.3)  # mm
     reach = l2 + l3
 
-    def shoulder(m):  # the angle of the tangent to the circle of radius d3
+    def shoulder(m):  # the rate of the angle of the tangent to the circle of radius d3
         return d3 * 100 / ((d3 + m) * np.sqrt(2 * d3 * m + m * m)) / deg
 
     def elbow(m):  # s^2 = l2^2 + l3^2 + 2 l2 l3 cos(bend), and s ds = rho drho
@@ -128,7 +128,7 @@ def test_speeds_grow_by_the_stated_factors_ten_times_nearer_to_a_singularity():
 
     aligned = PUMA560.fk(np.array([0, 60, -170, 0, 0, 0]) * deg)
 
-    def wrist(m):  # from differences of the inverse
+    def wrist(m):  # computed from differences of the inverse
         u = np.linspace(-m, m, 2001)[:, None] * [0, 1e-3, 0]
         poses = Transform(aligned.rotation, aligned.translation + u + [0, 0, m * mm])
         q6 = np.unwrap(PUMA560.ik(poses)[:, 3, 5])
@@ -210,7 +210,7 @@ def test_nearest_first_loses_as_often_as_stated():
     )
     assert (count, total) == (worse, last - first + 1)
     assert 40 <= worse <= 99 and options[right].text == "In 40 to 99."
-    # at the ends of Wilson's interval the share is 1.96 standard errors away
+    # the ends of Wilson's interval are 1.96 standard errors from the observed proportion
     p = np.array([low, high]) / 100
     away = abs(p - count / total) / np.sqrt(p * (1 - p) / total)
     assert away == pytest.approx([1.96] * 2, abs=0.2)
@@ -256,7 +256,7 @@ def test_random_choice_turns_more_by_the_stated_factor():
     turned, dice = dict.fromkeys(stand, 0.0), np.random.default_rng(seed)
 
     def least(place, before):
-        """A sweep over the whole family, then a finer one near its best row."""
+        """The best posture in a sweep over the family and two finer ones near the best row."""
         low, high = ARM.alpha_range(place)
         for count in (8001, 101, 101):
             alphas = np.linspace(low, high, count)
@@ -298,7 +298,7 @@ def test_the_arm_with_arctan2_stays_within_its_limits_and_the_other_does_not():
     first, last = map(int, re.search(r"from the direction (\d+)° to (\d+)°", question).groups())
     facts = content("three_levers").module("predictions")
     RING, SAMPLE = facts["RING"], facts["SAMPLE"]
-    KB = 2 * np.sin(SAMPLE / 2)  # gamma is the direction plus a constant angle
+    KB = 2 * np.sin(SAMPLE / 2)  # gamma is the direction of K plus a constant angle
     gamma_1 = np.arccos((RING**2 + 1 - KB**2) / (2 * RING)) / deg
     beta = np.arccos((KB**2 + 1 - RING**2) / (2 * KB)) + (np.pi - SAMPLE) / 2
     assert 0 < first + gamma_1 and last + gamma_1 < 180 and 0 < beta < np.pi
@@ -310,16 +310,16 @@ def test_the_arm_with_arctan2_stays_within_its_limits_and_the_other_does_not():
 
 
 def lever_distance(q, H, lever=slice(None)):
-    """The least distance (...) from H to the levers in postures (..., 3)."""
+    """The least distance from H to the levers, shape (...), in postures of shape (..., 3)."""
     angles = np.cumsum(q - np.array([0, np.pi, np.pi]), axis=-1)
-    along = np.stack([np.cos(angles), np.sin(angles)], axis=-1)  # (..., 3, 2), unit vectors
+    along = np.stack([np.cos(angles), np.sin(angles)], axis=-1)  # unit vectors, shape (..., 3, 2)
     feet = np.cumsum(along, axis=-2) - along
     u = np.clip(((H - feet) * along).sum(axis=-1), 0, 1)
     return np.linalg.norm(feet + u[..., None] * along - H, axis=-1)[..., lever].min(axis=-1)
 
 
 def least_distance(path, H, count=2001):
-    """The least distance on a whole path, from samples with each minimum refined."""
+    """The least distance on a whole path: the least sample of each segment, refined."""
     found = []
     for a, b in pairwise(np.asarray(path)):
         s = np.linspace(0, 1, count)
@@ -340,7 +340,7 @@ def direct(start, target=K1):
     return np.stack([start, ARM.least(target, start)[0]])
 
 
-def test_stated_numbers_of_stretches_prove_the_distances():
+def test_distances_are_proven_with_the_stated_numbers_of_intervals():
     made = run("10", "setup", "lever-code", "whole-code")
     proven, H = made["proven"], made["H_motion"]
     a, b = made["q0"], made["q1"]
@@ -361,7 +361,7 @@ def test_stated_numbers_of_stretches_prove_the_distances():
     assert proven(a, a, H, 1.1 * room) == (False, 1)
 
 
-def test_arm_stays_at_the_stated_distance():
+def test_movement_depends_on_the_required_distance_as_stated():
     made = run("10", "setup", "drawing-tools", "lever-code", "whole-code", "control-code")
     control, H = made["control"], np.array([1.2, 1.3])
     text = r"value S rises, from (\d+)° at (\d+) mm to (\d+)° at (\d+) mm, but for one fall, from "
@@ -441,7 +441,7 @@ def test_the_wave_starts_and_ends_in_proven_postures(capsys):
             assert round(near) == int(cannot[1]) and near < DISTANCE / mm
 
 
-def test_a_grid_of_15_degrees_finds_no_path_and_one_of_5_does():
+def test_search_finds_no_path_on_a_15_degree_grid_but_finds_one_on_a_5_degree_grid():
     question, options, _ = asked("obstacle_avoidance.p8")
     H = np.array([0.5, 1.0])
     assert "(0.5, 1) m" in question and "steps of 15°" in question
@@ -459,7 +459,7 @@ def test_the_documents_test_finds_as_few_obstacles_as_stated():
     path = pytest.importorskip("matplotlib.path").Path
 
     def found_in(tasks):
-        """How many points H are inside, and how many of these the document's test finds."""
+        """The numbers of points H inside the quadrilateral: all, and those that the test finds."""
         inside = found = 0
         for (A, K), (A1, K_1), H in tasks:
             if path([A, K, K_1, A1]).contains_point(H):
@@ -561,7 +561,7 @@ def test_start_frequency_and_lost_steps_are_as_stated(capsys):
     motor = made["motor"]
 
     def steps(tempo):
-        """The number of steps made, from another integrator, pulse by pulse."""
+        """The number of steps made, integrated pulse by pulse with SciPy."""
         state, times = [0.0, 0.0], [*(np.arange(1, 49) / tempo), 48 / tempo + 0.4]
         for k, (a, b) in enumerate(pairwise([0.0, *times])):
             pull = k * np.pi / 2
@@ -593,7 +593,7 @@ def test_lab_11_does_not_mention_missing_tables():
     assert not [text for text in texts if re.search(r"\btable \d", text)]
 
 
-def test_every_cycle_to_try_drifts():
+def test_every_suggested_cycle_drifts():
     arm, per_degree = loader_arm(450 * mm, 300 * mm), np.array([10, 40, 40])
     for stakes in ([420, -180, 420], *tries("11", "drift-code")):
         points = np.array([[600, -350, 50], stakes, [50, 250, 350]]) * mm
@@ -615,7 +615,7 @@ def test_elbow_formula_is_exact_at_every_point_but_one_and_jumps_there():
     made = run("12", "opening-setup")
     sp = pytest.importorskip("sympy")
     x, y, link = sp.symbols("x y l", positive=True)
-    for side in (1, -1):  # x3 = side x: the formula of the cell, in symbols
+    for side in (1, -1):  # the cell's formula in symbols, with x3 = side * x
         d2 = x**2 + y**2
         y2 = (y * d2 + sp.sqrt(x**2 * d2 * (4 * link**2 - d2))) / (2 * d2)
         x2 = (d2 - 2 * y * y2) / (2 * side * x)
@@ -649,7 +649,7 @@ def test_the_table_near_zero_uses_the_formulas_of_the_lab():
         assert [f"{x:.6f}" for x in own] == [one, two]
 
 
-def test_rounding_on_the_rim_removes_as_many_answers_as_stated():
+def test_rounding_on_the_rim_loses_the_stated_number_of_answers():
     made = generated()
     question, options, right = asked("two_link_code_generation.p8")
     count = int(re.search(r"We take (\d+) tips", question)[1])
@@ -675,12 +675,12 @@ def test_lab_and_exercise_3_state_the_same_accuracy():
 # --- The documents --------------------------------------------------------------------------------
 
 
-def test_signed_angle_is_covered_in_the_places_of_its_row():
+def test_sections_named_in_the_companion_cover_the_signed_angle():
     (row,) = [x for x in cells("001")["rows"].splitlines() if x.startswith("| S1-01 |")]
     assert "signed `angle_to` about an axis" in row and "Quaternion.angle_to" not in row
     assert "[here §1]" in row and "[02 §6]" in row
     assert "listing" not in inspect.getdoc(Quaternion.angle_to)
-    texts = [*cells("02").values()]  # in the order of the lab
+    texts = [*cells("02").values()]  # in the lab's order
     at = next(k for k, text in enumerate(texts) if "def angle_to(one, two, axis)" in text)
     heading = [line for text in texts[:at] for line in text.splitlines() if line[:3] == "## "][-1]
     assert heading.startswith("## 6. ")
@@ -690,7 +690,7 @@ def test_signed_angle_is_covered_in_the_places_of_its_row():
         assert u.angle_to(v, Vector(0, 0, 1)) / deg == pytest.approx(turn)
 
 
-def test_five_methods_of_part_one_race():
+def test_the_race_includes_the_five_methods_of_part_one():
     (line,) = [x for x in cells("003")["lost"].splitlines() if x.startswith("| I |")]
     many, first, second = re.search(r"09: (\w+) methods of (\S+) and (\S+) race", line).groups()
     makers = [

@@ -39,7 +39,7 @@ def flat(lab, cell):
 
 
 def shown(lab, cell):
-    """The words in the stored output of a cell."""
+    """The text in the stored output of a cell."""
     (path,) = NOTEBOOKS.glob(f"{lab}_*.ipynb")
     (found,) = [
         each for each in json.loads(path.read_text(encoding="utf-8"))["cells"] if each["id"] == cell
@@ -51,7 +51,7 @@ def shown(lab, cell):
 
 
 def view(name):
-    """The words of a prediction's view, or of its figure."""
+    """The text of a prediction's view, or the alt text of its figure."""
     made = find(name, "predictions").view()
     return made if isinstance(made, str) else made.alt
 
@@ -63,7 +63,7 @@ def numbers(pattern, text):
 
 
 def mistakes(lab, name):
-    """The sentences about the mistakes with this name."""
+    """The mistakes with this name, each with its sentence."""
     return [
         (each, each.says)
         for exercise in find_exercises(lab)
@@ -139,7 +139,7 @@ def test_the_arm_reaches_the_pose_of_the_first_picture_in_eight_ways():
     assert len(found) == 8
 
 
-def test_only_joint_3_is_not_from_atan2_and_joint_6_can_undo_joint_4():
+def test_only_joint_3_does_not_use_atan2_and_joint_6_can_undo_joint_4():
     assert "Every angle but joint 3's comes from atan2" in flat("02", "short")
     code = cells("02")
     assert (
@@ -163,7 +163,7 @@ def test_speeds_at_the_corner_and_joint_2_past_its_limit_are_as_stated():
     assert "With this configuration joint 2 is always past its limit" in flat("02", "limits-look")
     times = np.linspace(0, 20, 4001)
     q2 = made["IRB140"].ik(made["target"](times, 20))[:, made["IRB140"].branch(+1, -1, +1), 1]
-    # between two samples it cannot fall by more than it changes in a step
+    # between two samples the margin cannot shrink by more than q2 changes in a step
     least = (IRB140.limits[1, 0] - q2).min()
     assert least > 10 * abs(np.diff(q2)).max() > 0
 
@@ -174,7 +174,7 @@ def test_axis_5_points_in_the_stated_direction():
     )
     q = np.array([-30, 10, 0, 35, 50, 40]) * deg
     assert "np.array([-30, 10, 0, 35, 50, 40]) * deg" in cells("02")["matrix-figure"]
-    h = 1e-6  # axis 5, from the rotation of the flange with joint 5
+    h = 1e-6  # axis 5 is the axis of a small rotation of the flange by joint 5
     turn = (
         IRB140.fk(q + [0, 0, 0, 0, h, 0]).rotation @ IRB140.fk(q).rotation.inverse()
     ).as_matrix()
@@ -187,7 +187,7 @@ def test_axis_5_points_in_the_stated_direction():
     assert np.arccos(axis @ ways["below"]) / deg == pytest.approx(below, abs=1e-3)
 
 
-def test_shoulder_behind_is_farther_by_the_stated_distance():
+def test_back_shoulder_is_farther_by_the_stated_distance():
     hint = find("irb140_kinematics.2", "exercises").hints[1]
     ahead, more = numbers(r"At its height .* more than (\d+) mm ahead is (\d+) mm farther", hint)
     for x in (ahead + 1, 300, 800):  # the shoulder is at +70 or -70 mm
@@ -206,7 +206,7 @@ def test_speeds_of_joint_1_and_the_change_in_speed_at_via_are_as_stated():
     assert [round(abs(speed).min(), 1), round(abs(speed).max(), 1)] == [low, high]
     _, options, right = asked("irb140_motion.p5")
     (change,) = numbers(r"to the next the speed changes by (\S+) rad/s", options[right].reason)
-    share = np.linspace(0.999, 1, 2)[:, None]  # 10 ms before and after via, and via
+    share = np.linspace(0.999, 1, 2)[:, None]  # at via, and 10 ms away from it
     before = IRB140.ik(lin(made["start"], made["via"], share[:, 0]))[:, made["row"], 2]
     after = IRB140.ik(lin(made["goal"], made["via"], share[:, 0]))[:, made["row"], 2]
     assert round(abs(before[0] - 2 * before[1] + after[0]) / 0.01, 3) == change
@@ -232,16 +232,16 @@ def test_notch_begins_and_tool_passes_joint_1_where_stated():
     assert round(np.arccos(-200 / 250) / deg) == angle
 
 
-def test_both_ways_to_one_orientation_have_the_stated_greatest_speed():
+def test_both_motions_to_the_same_orientation_have_the_stated_greatest_speeds():
     slow, fast = numbers(
         r"speed (\S+) °/s \(joint 5\).* (\S+) °/s \(joint 4\)", shown("06", "twins")
     )
-    # a quarter of the time speeding up, a quarter slowing down
+    # the law accelerates for a quarter of the time and brakes for a quarter
     assert "trapezoidal(duration=1)" in cells("06")["twins"]
     assert [135 / (1 - 0.25), (45 + 180) / (1 - 0.25)] == pytest.approx([slow, fast])
 
 
-def test_errors_after_the_cure_are_as_stated_and_equal_shares_turn_least():
+def test_errors_after_the_fix_are_as_stated_and_equal_sharing_turns_least():
     words = view("spherical_wrist.p6")
     most, down, where, there = numbers(
         r"below (\S+) down to theta = (\S+); at (\S+), where phi .* it is (\S+), and falls", words
@@ -264,7 +264,7 @@ def test_errors_after_the_cure_are_as_stated_and_equal_shares_turn_least():
 # --- Labs 07 to 09 --------------------------------------------------------------------------------
 
 
-def test_the_corner_is_a_share_of_the_progress_and_only_joint_values_jump():
+def test_the_corner_is_a_fraction_of_the_progress_and_only_joint_values_jump():
     assert "a share $b$ of the progress $s$ on either side of via" in flat("07", "via")
     made = run_cells("07", "opening-setup")
     start, goal = made["start"], made["goal"]
@@ -302,7 +302,7 @@ def test_speeds_very_near_wrist_and_shoulder_singularities_are_as_stated():
     assert r"it is $v\,d_3/(\rho\,r)$, with $\rho = d_3 + m$" in text
     assert "when $m$ is small beside $d_3$" in text
     d3, h = 150.05 * mm, 1e-7
-    for m in (100 * mm, 10 * mm, 1 * mm):  # from differences of joint 1
+    for m in (100 * mm, 10 * mm, 1 * mm):  # speeds from differences of joint 1
         place = np.array([[d3 + m + x, 0, 1.2] for x in (-h, h)])
         q1 = PUMA560.ik(Transform(Quaternion(np.array([1.0, 0, 0, 0])), place))[:, 2, 0]
         rho, r = d3 + m, np.sqrt(2 * d3 * m + m * m)
@@ -330,8 +330,8 @@ def test_all_rows_but_row_2_become_forbidden_and_two_values_differ_as_stated():
 
 
 def test_finer_steps_leave_the_stated_number_of_lines():
-    """The steps are a fifth as long, and each row is unwrapped separately, from values inside the
-    limits.
+    """The steps are a fifth as long as in the prediction, and each row is unwrapped separately,
+    from values inside the limits.
     """
     drawn = book.lab("puma560_branches").module("predictions")["random_poses"]
     ends = drawn(np.random.default_rng(7), (2, 3000))
@@ -344,8 +344,8 @@ def test_finer_steps_leave_the_stated_number_of_lines():
         rows = PUMA560.ik(lin(a, b, np.linspace(0, 1, 401)))
         if np.isfinite(rows).all():
             q = np.unwrap(rows, axis=0)[..., None] + 2 * np.pi * np.array([0, -1, 1, -2, 2])
-            inside = (q > low[:, None] - 1e-9) & (q < high[:, None] + 1e-9)  # (401, 8, 6, 5)
-            begins = inside[0].argmax(axis=-1)[None, ..., None]  # the first value within the limits
+            inside = (q > low[:, None] - 1e-9) & (q < high[:, None] + 1e-9)  # shape (401, 8, 6, 5)
+            begins = inside[0].argmax(axis=-1)[None, ..., None]  # index of the first value inside
             served += np.take_along_axis(inside.all(axis=0)[None], begins, -1).all(axis=2).any()
     question, _, _ = asked("puma560_branches.p7")
     assert question.startswith(f"{served} random straight lines")
@@ -388,7 +388,7 @@ def one_posture(place, gamma):
     d = np.hypot(*way)
     with np.errstate(invalid="ignore"):
         bend = np.arccos(d / 2)  # both levers are 1 m long
-    first = np.arctan2(way[1], way[0]) + bend  # clockwise from B on: A lies to the left
+    first = np.arctan2(way[1], way[0]) + bend  # the chain turns clockwise at A: A is left of BK
     A = B + [np.cos(first), np.sin(first)]
     last = np.arctan2(*(K - A)[::-1])
     beta, alpha = (
@@ -413,7 +413,7 @@ def test_gamma_must_change_between_the_two_targets():
         assert np.allclose(ARM.points(q[np.isfinite(q).all(axis=1)])[:, 3], place)
 
 
-def test_sum_and_largest_change_are_least_where_stated():
+def test_sum_of_changes_and_largest_change_are_least_where_stated():
     STAND, TARGET = map(book.lab("three_levers").module("predictions").get, ("STAND", "TARGET"))
     at = numbers(r"least at (\d+) degrees, the largest at (\d+) degrees", view("three_levers.p8"))
     q = np.array([one_posture(TARGET, g) for g in np.linspace(0, np.pi, 20001)])

@@ -32,7 +32,7 @@ LOADER, PER_DEGREE, LIMIT = loader_arm(450 * mm, 300 * mm), np.array([10, 40, 40
 # --- Lab 03 ---------------------------------------------------------------------------------------
 
 
-def test_correct_programs_keep_their_promise_about_speeds():
+def test_correct_programs_compute_speeds_as_accurately_as_promised():
     """The motions are sums of two oscillations with speeds, accelerations and jerks below 10."""
     rng = np.random.default_rng(3)
     exercise = book.find("irb140_motion.3", "exercises")
@@ -52,7 +52,7 @@ def test_correct_programs_keep_their_promise_about_speeds():
 # --- Lab 10 ---------------------------------------------------------------------------------------
 
 
-def test_a_grid_of_15_degrees_has_a_path_that_this_wave_does_not_find():
+def test_the_15_degree_grid_has_a_path_that_the_wave_does_not_find():
     _, options, right = asked("obstacle_avoidance.p8")
     assert options[right].text.startswith("Nothing but that this wave found none")
     assert options[0].reason.startswith("This wave found none in steps of 15°")
@@ -71,7 +71,7 @@ def test_a_grid_of_15_degrees_has_a_path_that_this_wave_does_not_find():
     assert "to a posture of the curve from the grid posture nearest to it" in words
 
 
-def test_more_samples_never_find_more_distance_if_the_old_ones_are_kept():
+def test_adding_samples_never_increases_the_least_distance_found():
     _, options, right = asked("obstacle_avoidance.p4")
     says = options[right].reason
     assert "If the old ones are kept, more of them never find a larger distance" in says
@@ -85,7 +85,7 @@ def test_more_samples_never_find_more_distance_if_the_old_ones_are_kept():
     assert found(10) > found(9), "new places, and a larger distance"
 
 
-def test_five_of_the_six_plans_exist_and_fold_as_stated():
+def test_five_of_the_six_plans_exist_and_fold_the_arm_as_stated():
     most, least = numbers(
         r"five plans.*one no.* from (\d+) down to (\d+) ", shown("10", "deeper-figure")
     )
@@ -103,7 +103,7 @@ def test_five_of_the_six_plans_exist_and_fold_as_stated():
     assert [round(folds[0]), round(folds[-1])] == [most, least]
 
 
-def test_gripper_comes_as_near_and_circles_help_as_often_as_stated():
+def test_gripper_distance_and_success_of_larger_circles_are_as_stated():
     (near,) = numbers(r"as near to the obstacle as (\d+) mm, inside", view("obstacle_avoidance.p5"))
     path = via_path(ARM, Q0, K1, np.array([1.0, 1.5]))
     s = np.linspace(0, 1, 20001)[:, None]
@@ -158,7 +158,7 @@ def test_two_distances_locate_two_points_or_one_in_line_with_the_sensors():
         assert in_line[0] == pytest.approx(in_line[1])
 
 
-def test_search_keeps_its_distance_and_sampled_obstacles_lie_on_lever_ak():
+def test_paths_keep_the_distance_and_sampled_obstacles_lie_on_lever_ak():
     words = flat("10", "cube-look")
     assert "in steps of at most 5° between allowed postures" in words
     assert "proves every part" in words and "an obstacle on AK" in flat("10", "often-code")
@@ -207,7 +207,7 @@ def test_straight_line_takes_longer_if_the_motor_at_the_limit_changes():
         if ((steps > 0).any(axis=0) & (steps < 0).any(axis=0)).any() or abs(
             n[-1] - n[0]
         ).max() < 200:
-            continue  # a motor reverses, or rounding matters
+            continue  # skip lines where a motor reverses or rounding matters
         changes = len({*abs(steps).argmax(axis=1).tolist()}) > 1
         d = abs(n[-1] - n[0]).max() / LIMIT
         share = move.duration / d
@@ -218,7 +218,7 @@ def test_straight_line_takes_longer_if_the_motor_at_the_limit_changes():
     assert kinds == {True, False}
 
 
-def test_rule_by_size_fails_in_the_stated_range():
+def test_turn_rule_by_size_alone_fails_in_the_stated_range():
     text = flat("11", "turn-look")
     low, high = numbers(r"for \$-(\d+)° < d < -(\d+)°\$ the rule gives minus the right turn", text)
     for d in np.arange(-899.5, 0):
@@ -285,7 +285,7 @@ def test_elbows_are_exchanged_on_the_stated_side():
         program = exercise.steps.program(each)
         for x in (1.0, -1.0):
             elbow = program(np.zeros(2), np.array([x, 0.5]), 1, 0.8, 1)
-            if x * elbow[1] - 0.5 * elbow[0] > 0:  # to the left of the line to the tip
+            if x * elbow[1] - 0.5 * elbow[0] > 0:  # the elbow is left of the line to the tip
                 sides.append("right" if x > 0 else "left")
     assert sides == ["right", "left"]
     assert [re.search(r"to its (\w+) the two", says)[1] for _, says, _ in said] == sides

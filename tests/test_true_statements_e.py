@@ -41,7 +41,7 @@ def about(axis, angle):
 
 
 def written(lab):
-    """The Markdown and Python of a lab's files, on one line."""
+    """The text of all exercise files of a lab, on one line."""
     (ours,) = [NOTEBOOKS / "exercises" / lab]
     files = [*ours.glob("*.md"), *(ours.parents[2] / "robokin" / "course").glob(f"{lab}.py")]
     text = " ".join(each.read_text(encoding="utf-8") for each in files)
@@ -82,7 +82,8 @@ def test_angles_can_be_interpolated_if_only_one_of_them_changes():
             half = middle(one, two)
             assert apart(turned(*one), half) == pytest.approx(whole / 2, abs=1e-6)
             assert apart(half, turned(*two)) == pytest.approx(whole / 2, abs=1e-6)
-    back = np.array([0, 0, 0.0]), np.array([np.pi, np.pi / 3, np.pi])  # 120 degrees about y
+    # the second triple of angles is a rotation by 120 degrees about y
+    back = np.array([0, 0, 0.0]), np.array([np.pi, np.pi / 3, np.pi])
     assert apart(turned(*back[1]), about([0, 1, 0], 2 * np.pi / 3)) < 1e-6
     assert apart(middle(*back), about([0, 1, 0], np.pi / 3)) > 60 * deg
 
@@ -109,7 +110,7 @@ def test_scalar_part_joint_without_a_jump_and_parallel_axes_are_as_stated():
         assert np.linalg.norm(np.cross(*turns)) < 1e-5
 
 
-def test_tip_is_along_the_base_x_only_if_the_tool_points_there():
+def test_tip_is_along_the_base_x_axis_only_if_the_tool_points_there():
     says = "The tip is put along the base's x axis: right only while the tool points along it."
     assert says in written("irb140_kinematics")
     assert flat("02", "short").count("Every angle but joint 3's comes from atan2.") == 1
@@ -123,7 +124,7 @@ def test_tip_is_along_the_base_x_only_if_the_tool_points_there():
         assert (off < 1e-9) == right
 
 
-def test_one_shoulder_reaches_where_the_other_does_not():
+def test_one_shoulder_reaches_poses_that_the_other_does_not():
     assert "there is no triangle: this front does not reach." in flat("02", "triangle")
     down = Quaternion.from_angle_axis(np.pi, [1, 0, 0])
     fronts = set()
@@ -147,7 +148,7 @@ def test_shorter_intervals_do_not_show_smaller_changes():
     assert "What doubles at half the step belongs to the method" in flat("03", "short")
     told = "At the same blend the quintic gives the tool 1.5 times the parabola's greatest"
     assert told in written("irb140_motion")
-    # x is the parameter of the corner; control points are shares of the path to via
+    # x is the parameter of the corner; control points are fractions of the path to via
     x = np.linspace(0, 1, 1001)
     peaks = []
     for controls in ([0, 1, 0], [0, 0.4, 0.8, 0.8, 0.4, 0]):
@@ -160,7 +161,7 @@ def test_shorter_intervals_do_not_show_smaller_changes():
 # --- Labs 04 to 06 --------------------------------------------------------------------------------
 
 
-def test_in_front_only_the_length_limits_the_reach():
+def test_only_the_arms_length_limits_the_reach_in_front():
     assert "In front nothing stops the arm outwards but its length." in flat("04", "zone")
     low, high = SCARA.limits[:2].T
     l1, l2 = 0.2, 0.25
@@ -180,7 +181,7 @@ def test_in_front_only_the_length_limits_the_reach():
     assert not served(-0.38, 0) and served(-0.36, 0)
 
 
-def test_short_second_lever_turns_the_first_by_the_stated_angle():
+def test_first_lever_turns_by_the_stated_angle_if_the_second_is_short():
     _, options, _ = asked("scara_kinematics.p3")
     pattern = r"levers of (\d+) and (\d+) mm the first one turns by (\d+)°"
     l1, l2, most = numbers(pattern, " ".join(each.second for each in options))
@@ -189,7 +190,7 @@ def test_short_second_lever_turns_the_first_by_the_stated_angle():
     assert round((2 * inner.max()) / deg) == most
 
 
-def test_least_tool_speed_for_joint_speeds_of_length_1_is_as_stated():
+def test_least_tool_speed_for_unit_joint_speeds_is_the_smaller_singular_value():
     words = flat("04", "deeper-jacobian")
     assert "How fast is the tool, at the least, for joint speeds of length 1 rad/s?" in words
     q = np.array([0.3, 0.5])
@@ -218,7 +219,7 @@ def test_quintic_corner_has_a_higher_peak_acceleration():
         assert (most["quintic"] > 1.2 * most["parabola"]).all()
 
 
-def test_half_the_step_doubles_the_strokes_false_acceleration():
+def test_halving_the_step_doubles_the_strokes_false_acceleration():
     words = flat("05", "deeper-zones")
     assert 'half the step doubles the stroke\'s "acceleration" at the corner' in words
     made = run_cells("05", "setup")
@@ -271,7 +272,7 @@ def test_a_mirror_is_orthogonal_and_phi_loses_digits_as_stated():
             psi = rng.uniform(-3, 3)
             M = about([0, 0, 1], phi) @ about([0, 1, 0], theta) @ about([0, 0, 1], psi)
             back = about([1, 0, 0], 0.7)
-            M = back.T @ (back @ M)  # rounded like the result of a product
+            M = back.T @ (back @ M)  # rounded like a product of matrices
             off.append(abs(np.exp(1j * np.arctan2(M[1, 2], M[0, 2])) - np.exp(1j * phi)))
         worst[theta] = max(off)
     assert worst[1e-9] < 1e-6 and 1e-4 < worst[5e-14] < 0.1
@@ -281,7 +282,7 @@ def test_a_mirror_is_orthogonal_and_phi_loses_digits_as_stated():
 # --- Lab 07 ---------------------------------------------------------------------------------------
 
 
-def test_followed_angles_matter_only_for_joint_6():
+def test_unwrapping_matters_only_for_joint_6():
     words = flat("07", "choose-rule")
     assert "One detail decides where joint 6, of 532°, winds past its limit:" in words
     low, high = PUMA560.limits.T
@@ -337,7 +338,7 @@ def test_worst_case_folded_arm_and_flat_ellipsoid_are_as_stated():
     assert round(np.linalg.svd(A)[1][2] / mm) == 1
 
 
-def test_elbow_line_is_as_stated():
+def test_elbow_line_ends_at_the_stated_distance_from_full_stretch():
     assert "ending where from shoulder to wrist centre $m$ is left to stretch" in flat(
         "07", "cross"
     )
@@ -349,7 +350,7 @@ def test_elbow_line_is_as_stated():
     assert "We ask many poses that the arm can reach" in flat("07", "count")
 
 
-def test_forearm_points_as_stated_in_the_first_prediction():
+def test_forearm_direction_is_as_stated_in_the_first_prediction():
     _, options, _ = asked("puma560_branches.p1")
     level = next(o for o in options if "parallel to the upper arm" in o.reason)
     assert level.text.endswith("90") and "joint 3's" in options[0].reason
@@ -386,11 +387,11 @@ def test_the_joints_in_which_two_rows_differ_depend_on_the_pose():
     assert options[right].text.startswith("Joints 2 to 6")
 
 
-def test_far_poses_straight_behind_have_no_front_row():
+def test_front_row_is_past_joint_1s_limit_for_far_poses_straight_behind():
     _, options, _ = asked("puma560_branches.p4")
     (far,) = numbers(r"^(\d+) mm straight behind axis 1", options[0].second)
     for rho, allowed in ((300, True), (400, True), (far, False), (700, False)):
-        q1 = 180 - np.arcsin(150.05 / rho) / deg  # the front row, up to the sign
+        q1 = 180 - np.arcsin(150.05 / rho) / deg  # joint 1 of the front row, up to the sign
         assert (q1 <= 160) == allowed
 
 
@@ -430,7 +431,7 @@ def test_motion_starts_gently_and_the_slider_sets_the_mean_speed():
     assert 5 * np.sin(q2) + 4 * np.cos(q2) == pytest.approx(-2.33, abs=0.005)
 
 
-def test_other_elbow_is_past_its_limit_away_from_the_borders():
+def test_other_elbow_is_past_its_limit_except_at_the_borders():
     assert "off the borders, with the elbow flag −1 joint 3 is past its limit" in flat(
         "08", "rows-look"
     )
@@ -463,7 +464,7 @@ def test_ranges_of_alpha_and_gamma_are_as_stated():
     assert (np.diff(off) < 0).all() and off[-1] < 0.01
     (x,) = numbers(r"With K at \((\S+), 0\) m gamma is above 180° for every alpha", said)
     for alpha in np.linspace(np.arccos((5 - x * x) / 4), np.pi, 201):
-        away = np.sqrt(2 - 2 * np.cos(alpha))  # BK, and the angle at O of the triangle O B K
+        away = np.sqrt(2 - 2 * np.cos(alpha))  # the side BK, then the angle at O of triangle OBK
         at_O = np.arccos(np.clip((1 + x * x - away**2) / (2 * abs(x)), -1, 1))
         assert at_O > 1e-3, "gamma is the direction of K plus this angle"
 
@@ -522,7 +523,7 @@ def test_areas_and_curves_are_as_stated():
     assert np.ptp(far) > 1e-3, "not an arc of a circle"
 
 
-def test_drawn_tasks_and_the_larger_circle_keep_the_distance_as_stated():
+def test_sampled_tasks_and_the_larger_circle_keep_the_distance_as_stated():
     assert "all levers at the start and the gripper at the target keep" in flat("10", "often")
     near_at_target = 0
     for start, target, H in sampled_tasks():
@@ -548,7 +549,7 @@ def test_plan_tries_more_circles_than_control():
 # --- Labs 11 and 12 -------------------------------------------------------------------------------
 
 
-def test_motors_turn_back_in_the_last_third_of_the_straight_line():
+def test_motors_reverse_in_the_last_third_of_the_straight_line():
     assert "**Look at** c in its last third:" in flat("11", "paths-look")
     start, goal = np.array([[600, -350, 50], [50, 250, 350]]) * mm
     share = np.linspace(0, 1, 20001)

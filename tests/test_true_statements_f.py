@@ -1,4 +1,4 @@
-"""Statements that a third set of readers refuted or doubted, computed again in another way."""
+"""Statements that a third set of readers refuted or doubted, recomputed by a different method."""
 
 import contextlib
 import io
@@ -25,7 +25,7 @@ def one_line(text):
 
 
 def option(name, short):
-    """One option of a prediction, by its short name in the file."""
+    """The option of a prediction with the given short name."""
     lab, number = name.split(".")
     text = (NOTEBOOKS / "exercises" / lab / "predictions.md").read_text(encoding="utf-8")
     section = text.split(f"## {number}")[1].split("\n## ")[0]
@@ -39,7 +39,7 @@ def says(lab, name):
 
 
 def about(axis, angle):
-    """A rotation about an axis, made by SciPy."""
+    """A rotation about an axis, computed by SciPy."""
     return Rotation.from_rotvec(angle * np.array(axis) / np.linalg.norm(axis)).as_matrix()
 
 
@@ -51,7 +51,8 @@ def test_lerp_between_rotations_is_not_a_rotation():
     assert "Between two different rotations lerp is not a rotation;" in words
     assert "divided by its length (nlerp) it is one, but does not turn at constant speed" in words
     third = np.array([np.cos(120 * deg), np.sin(120 * deg), 0, 0])
-    assert np.linalg.norm([1, 0, 0, 0] + third) == pytest.approx(1)  # this sum is a rotation
+    # this sum has length 1, so it is a rotation
+    assert np.linalg.norm([1, 0, 0, 0] + third) == pytest.approx(1)
     s = np.linspace(0, 1, 201)[:, None]
     rng = np.random.default_rng(1)
     for angle in np.append(rng.uniform(1, 179, 20), [1, 179]) * deg:
@@ -60,7 +61,7 @@ def test_lerp_between_rotations_is_not_a_rotation():
         b = a * Rotation.from_rotvec(angle * axis / np.linalg.norm(axis))
         chord = (1 - s) * a.as_quat() + s * b.as_quat() * np.sign(a.as_quat() @ b.as_quat())
         assert (np.linalg.norm(chord, axis=1)[1:-1] < 1).all()
-        steps = Rotation.from_quat(chord)  # SciPy divides by the length
+        steps = Rotation.from_quat(chord)  # SciPy normalises the quaternions
         speed = (steps[:-1].inv() * steps[1:]).magnitude()
         assert speed.sum() == pytest.approx(angle)
         uneven = speed.max() / speed.min() - 1
@@ -111,11 +112,11 @@ def test_last_hint_for_slerp_catches_every_mistake():
             missed = [name for name, lead in wrongs if is_right(lead, pairs + more)]
             assert not missed, (seed, missed)
             old = dict(wrongs)["nlerp of what is not near"]
-            without += is_right(old, pairs + more[:2])  # with the earlier hint
+            without += is_right(old, pairs + more[:2])  # only the earlier cases
     assert without
 
 
-def test_skew_axes_with_directions_determine_a_link():
+def test_skew_axes_with_known_directions_determine_the_dh_parameters():
     reason = one_line(option("frames_and_quaternions.p4", "none").reason)
     assert "one common perpendicular, once you have said which way it and the axes point." in reason
     assert "it is 0, or 180° where they point opposite ways" in one_line(
@@ -128,10 +129,10 @@ def test_skew_axes_with_directions_determine_a_link():
 
     for q, d, a, alpha in np.random.default_rng(4).uniform(0.2, 1.3, (10, 4)):
         (R, p), (S, r) = link(q, d, a, alpha), link(q + np.pi, d, -a, -alpha)
-        # both lead to the same next axis
+        # both links lead to the same next axis
         assert np.allclose(R[:, 2], S[:, 2]) and np.allclose(p, r)
         assert np.allclose(R[:, 0], -S[:, 0])  # the x axes are opposite
-        # with x and z given, each number can be read from the frame
+        # if the directions of x and z are known, all four parameters can be read from the frame
         read = np.arctan2(R[1, 0], R[0, 0]), p[2], p @ R[:, 0], np.arctan2(R[2, 1], R[2, 2])
         assert np.allclose(read, (q, d, a, alpha))
         assert np.allclose(np.cross(link(q, d, a, np.pi)[0][:, 2], [0, 0, 1]), 0)
@@ -150,7 +151,8 @@ def test_joint_1_is_fastest_in_the_middle_of_the_line():
     tool = (Rotation.from_rotvec(s[:, None] * way)).as_matrix() @ first @ [0, 0, 1]
     place = [200, 400, 600] + s[:, None] * np.subtract([200, -300, 800], [200, 400, 600])
     centre = place - 65 * tool
-    q1 = np.unwrap(np.arctan2(centre[:, 1], centre[:, 0]))  # the wrist is in front
+    # front row: joint 1 points to the wrist centre
+    q1 = np.unwrap(np.arctan2(centre[:, 1], centre[:, 0]))
     speed, mean = abs(np.gradient(q1, s)), abs(q1[-1] - q1[0])
     assert (speed < mean).mean() > 0.5 and 1.8 < speed.max() / mean < 1.9
     assert abs(s[speed.argmax()] - 0.5) < 0.05
@@ -164,7 +166,7 @@ def test_trapezoid_brakes_at_full_strength_to_the_end():
     assert bell.endswith("a triangle needs twice the mean height, this bell needs less.")
     law = np.polynomial.Polynomial([0, 0, 0, 10, -15, 6])
     slope, brake = law.deriv(), law.deriv(2)
-    ramp = 0.25  # share of the time; the peak is 1 / (1 - ramp) = 4/3
+    ramp = 0.25  # fraction of the time; peak speed / mean speed is 1 / (1 - ramp) = 4/3
     assert float(option("irb140_motion.p4", "trapezoidal").text) == pytest.approx(133.3)
     steady = 1 / (ramp * (1 - ramp))
     x = np.linspace(0, 1, 100001)
@@ -172,10 +174,10 @@ def test_trapezoid_brakes_at_full_strength_to_the_end():
     assert (-brake(x[x > 0.86]) < steady).all()
     assert slope(0.5) == 1.875 and quad(slope, 0, 1)[0] == pytest.approx(1)
     narrow = np.polynomial.Polynomial([0, 0, 0, 0, 0, 1]) * np.polynomial.Polynomial([1, -1]) ** 5
-    assert narrow(0.5) / quad(narrow, 0, 1)[0] > 2  # another bell needs more than a triangle
+    assert narrow(0.5) / quad(narrow, 0, 1)[0] > 2  # this bell has a higher peak than a triangle
 
 
-def test_quintic_corner_raises_the_tools_peak_by_the_stated_factor():
+def test_quintic_corner_raises_the_tools_peak_acceleration_by_the_stated_factor():
     second = one_line(option("irb140_motion.p7", "much more").second)
     told = r"At the same blend the quintic gives the tool (\S+) times the parabola's greatest"
     (factor,) = numbers(told + " acceleration in the corner:", second)
@@ -183,7 +185,7 @@ def test_quintic_corner_raises_the_tools_peak_by_the_stated_factor():
     x = np.linspace(0, 1, 1001)[:, None]
 
     def curve(controls):
-        """A Bezier curve, by de Casteljau's algorithm."""
+        """A Bezier curve, evaluated by de Casteljau's algorithm."""
         rows = [np.broadcast_to(each, (len(x), 3)) for each in controls]
         while len(rows) > 1:
             rows = [(1 - x) * a + x * b for a, b in zip(rows[:-1], rows[1:], strict=True)]
@@ -198,7 +200,8 @@ def test_quintic_corner_raises_the_tools_peak_by_the_stated_factor():
             for each in ([A, via, C], [*inside, *outside])
         ]
         assert peaks[1] / peaks[0] == pytest.approx(factor, rel=1e-3)
-    made = run_cells("03", "setup")  # a single joint can need less: joint 3 at blend 0.4
+    # a single joint can have a lower peak with the quintic corner: joint 3 at blend 0.4
+    made = run_cells("03", "setup")
     s = np.linspace(0, 1, 4001)
     third = []
     for kind in ("parabola", "quintic"):
@@ -217,7 +220,8 @@ def test_joint_4_can_have_two_values_inside_its_limits():
     for low, high in IRB140.limits / deg:
         most.append(((low - 1e-9 <= given) & (given <= high + 1e-9)).sum(axis=1))
     assert [counts.max() for counts in most] == [2, 1, 1, 2, 1, 3]
-    assert (most[0] == 2).sum() == 1 and given[most[0] == 2, 4] == -180  # joint 1: only ±180
+    # joint 1 can have two values only at ±180 degrees
+    assert (most[0] == 2).sum() == 1 and given[most[0] == 2, 4] == -180
     assert (most[3] == 2).sum() > 50 and most[5].min() == 2
     cases = book.find("irb140_motion.2", "exercises").cases
     low, high = IRB140.limits.T
@@ -229,14 +233,15 @@ def test_joint_4_can_have_two_values_inside_its_limits():
 
 
 def zone_area(a, m, l1=0.2, l2=0.25):
-    """The area of the floor that either elbow reaches, in m², integrated over circles."""
+    """The area of the floor reached with either elbow, in m², integrated over circles."""
 
     def served(r):
         q2 = np.arccos(np.clip((r * r - l1**2 - l2**2) / (2 * l1 * l2), -1, 1))
         if q2 > m:
             return 0.0
         i = np.arctan2(l2 * np.sin(q2), l1 + l2 * np.cos(q2))
-        behind = min(np.pi, a + i)  # elbow +1 serves i - a to i + a, elbow -1 the mirror image
+        # elbow +1 reaches the directions from i - a to i + a, and elbow -1 their mirror image
+        behind = min(np.pi, a + i)
         return 2 * r * (behind - max(0.0, i - a))
 
     rim = np.sqrt(l1**2 + l2**2 + 2 * l1 * l2 * np.cos(m))
@@ -254,10 +259,10 @@ def zone_area(a, m, l1=0.2, l2=0.25):
         ((140, 120), None),
         ((120, 120), None),
         ((180, 150), None),
-        ((100, 120), 2),  # the formula gives 0.39 % too little
-        ((90, 120), 2),  # the formula gives 1.65 % too little
+        ((100, 120), 2),  # the formula is 0.39 % too low
+        ((90, 120), 2),  # the formula is 1.65 % too low
         ((60, 150), 2),
-        ((90, 150), 1),  # a gap in front
+        ((90, 150), 1),  # the workspace has a gap in front
         ((45, 170), 1),
     ],
 )
@@ -311,7 +316,7 @@ def test_only_a_rotation_about_the_tools_axis_keeps_the_wrist_centre():
         row = np.nanargmin(np.linalg.norm(np.sin((rows - q) / 2), axis=1))
 
         def moved(turn, R=R, place=place, row=row, rows=rows):
-            """By how much each joint turns, and the wrist centre in mm."""
+            """Whether each joint moves, and how far the wrist centre moves, in mm."""
             there = Transform(Quaternion.from_matrix(R @ turn), place)
             other = IRB140.ik(there)[row]
             centre = np.linalg.norm(65 * (R @ turn - R)[:, 2])
@@ -345,7 +350,7 @@ def off(program, h):
 
 
 def kinds(theta, count=60):
-    """Matrices made by `by_hand`, and the same ones rounded by a product with two rotations."""
+    """Matrices made by `by_hand`, and the same ones rounded by products with other rotations."""
     rng = np.random.default_rng(8)
     exact = np.array([by_hand(f, theta, s) for f, s in rng.uniform(-3, 3, (count, 2))])
     back = Rotation.random(count, random_state=rng).as_matrix()
@@ -359,7 +364,7 @@ def lab_06():
 
 
 def singular_too(program, right):
-    """The program, but with correct results at sin theta = 0."""
+    """The program with its results corrected where sin theta = 0."""
 
     def found(h, wrist):
         with np.errstate(invalid="ignore"):
@@ -368,7 +373,7 @@ def singular_too(program, right):
     return found
 
 
-def test_hint_and_solution_reject_a_better_root_alone():
+def test_hint_and_solution_reject_a_program_with_only_a_better_root():
     made = lab_06()
     right, better = made["my_wrist"], singular_too(made["better_root"], made["my_wrist"])
     worst = {1e-10: 1e-6, 1e-9: 1e-7, 1e-8: 1e-8, 1e-7: 1e-9}
@@ -377,7 +382,7 @@ def test_hint_and_solution_reject_a_better_root_alone():
         for chain in (rounded, made["wrists"](theta)):
             assert abs(chain @ chain.swapaxes(1, 2) - np.eye(3)).max() < 3e-15
             assert off(better, chain).max() > least and off(right, chain).max() < 1e-14
-        assert off(better, exact).max() < 1e-14  # matrices made by zyz do not show it
+        assert off(better, exact).max() < 1e-14  # matrices made by zyz do not show the error
     one, _, three = (one_line(hint) for hint in WRIST.hints)
     told = "make some matrices as my_chain makes them: `wrists(theta)` of section 6."
     assert f"{told} zyz writes small entries with all their digits; a chain does not." in one
@@ -401,7 +406,7 @@ def test_hint_and_solution_reject_a_better_root_alone():
     )
 
 
-def test_a_hundred_matrices_are_enough_for_wrist_programs():
+def test_a_hundred_matrices_are_enough_to_test_wrist_programs():
     assert "a hundred well chosen ones will do" in flat("06", "yourturn-2")
     rng = np.random.default_rng(11)
     pairs = [(np.pi / 4, 0.3), (2, -0.5), *rng.uniform(-np.pi, np.pi, (4, 2))]
@@ -440,17 +445,17 @@ def test_regular_formulas_lose_digits_at_the_stated_angle():
             assert not (off(book_way, h) < 1e-10).any()
             assert (off(made["my_wrist"], h) < 1e-14).all()
     exact, rounded = kinds(1e-6)
-    assert (off(book_way, exact) < 1e-10).all()  # "within 1e-6 rad" was false here
+    assert (off(book_way, exact) < 1e-10).all()  # exact matrices lose no digits
     far = kinds(2e-6, 400)[1]
     found = np.array([book_way(h, +1) for h in far])
-    assert np.nanmax(off(book_way, far)) > 1e-10  # and "there only" was false here
+    assert np.nanmax(off(book_way, far)) > 1e-10  # rounded ones lose digits
     assert np.isfinite(found).all()
 
 
 # --- Lab 07 ---------------------------------------------------------------------------------------
 
 
-def test_these_lines_do_not_tell_which_rule_is_better():
+def test_the_sampled_lines_do_not_show_which_rule_is_better():
     question, options, right = asked("puma560_branches.p7")
     reason = one_line(options[right].reason)
     (said,) = numbers(r"^About (\d+) %\.$", options[right].text)
@@ -463,7 +468,7 @@ def test_these_lines_do_not_tell_which_rule_is_better():
     assert "which of the first two rules is better, these lines do not tell." in reason
     assert "the orientation over all rotations" in view("puma560_branches.p7")
     (low, high), rest = PUMA560.limits.T, np.array([0, 90, -90, 0, 0, 0]) * deg
-    rng = np.random.default_rng(2107)  # another sample, drawn in another way
+    rng = np.random.default_rng(2107)  # a different sample, drawn in a different way
     far = np.hypot(431.8 + np.hypot(431.8, 20.3), 150.05) * mm
     wxyz = Rotation.random(6000, random_state=rng).as_quat(scalar_first=True).reshape(2, 3000, 4)
     place = [0, 0, 671.83 * mm] + rng.uniform(-far, far, (2, 3000, 3))
@@ -474,13 +479,13 @@ def test_these_lines_do_not_tell_which_rule_is_better():
         rows = PUMA560.ik(lin(a, b, np.linspace(0, 1, 101)))
         if not np.isfinite(rows).all():
             continue
-        q = np.unwrap(rows, axis=0)[..., None] + turns  # (101, 8, 6, 5)
+        q = np.unwrap(rows, axis=0)[..., None] + turns  # shape (101, 8, 6, 5)
         inside = (q > low[:, None] - 1e-9) & (q < high[:, None] + 1e-9)
-        begins = inside[0].argmax(axis=-1)[None, ..., None]  # the first value inside
+        begins = inside[0].argmax(axis=-1)[None, ..., None]  # index of the first value inside
         serves = np.take_along_axis(inside.all(axis=0)[None], begins, -1)[0, ..., 0].all(axis=-1)
         if not serves.any():
             continue
-        first = np.take_along_axis(q[:1], begins, -1)[0, ..., 0]  # (8, 6)
+        first = np.take_along_axis(q[:1], begins, -1)[0, ..., 0]  # shape (8, 6)
         first = np.where(inside[0].any(axis=-1), first, rows[0])
         usable = inside[0].any(axis=-1).all(axis=-1)
         travel = abs(first - rest).sum(axis=1)
@@ -492,11 +497,11 @@ def test_these_lines_do_not_tell_which_rule_is_better():
     bound = 3 * 100 * np.sqrt(0.24 / len(missed))
     assert said == 40 and abs(shares - 41).max() < bound
     both = np.sqrt((missed[:, 0] != missed[:, 1]).mean() / lines) * 100
-    assert abs(one - other) < 2 * both  # these lines do not tell which is better
+    assert abs(one - other) < 2 * both  # the difference is not significant
 
 
 def peak(made, name, m, joint):
-    """The greatest speed of a joint, °/s, from differences of ik and a search."""
+    """The greatest speed of a joint in °/s, found by a search over differences of `ik`."""
     row, _, direction, goes_on = made["LINES"][name]
 
     def minus(u):
@@ -505,7 +510,7 @@ def peak(made, name, m, joint):
         turned = np.sin((q[1] - q[0]) / 2)[joint - 1] * 2
         return -abs(turned) / (2 * step) * 0.1 / deg
 
-    at = np.linspace(-1.5, 1.5, 61) * m  # the peak is a quarter of m from the middle
+    at = np.linspace(-1.5, 1.5, 61) * m  # the peak is m / 4 from the middle
     k = int(np.argmin([minus(u) for u in at]))
     best = minimize_scalar(
         minus, bounds=(at[max(k - 1, 0)], at[k + 1]), method="bounded", options={"xatol": 1e-6 * m}
@@ -520,7 +525,7 @@ def lab_07(*names):
     return made, told.getvalue()
 
 
-def test_greatest_speeds_past_the_wrist_are_those_of_the_line():
+def test_table_shows_the_greatest_joint_speeds_past_the_wrist_singularity():
     made, told = lab_07("cross-cost")
     table = [line.split() for line in told.splitlines()[-4:]]
     for row in table:
@@ -532,7 +537,7 @@ def test_greatest_speeds_past_the_wrist_are_those_of_the_line():
     assert drawn == 44868
 
 
-def test_player_shows_the_greatest_speed_of_the_line():
+def test_player_shows_the_greatest_joint_speed_on_the_line():
     made, _ = lab_07()
     source = cells("07")["cross-player"]
     head, _, tail = source.rpartition("\nanimate(")
@@ -541,7 +546,7 @@ def test_player_shows_the_greatest_speed_of_the_line():
     assert said == round(peak(made, "wrist", 2 * mm, 6), 1) == 2244.5
 
 
-def test_tangent_is_nearly_in_the_arms_plane():
+def test_flange_moves_nearly_in_the_arms_plane_at_the_nearest_point():
     reason = one_line(option("puma560_branches.p6", "as towards the axis").reason)
     told = r"the flange moves, where it is nearest, nearly in the arm's own plane, (\S+)° from it"
     (said,) = numbers(told, reason)
@@ -550,7 +555,7 @@ def test_tangent_is_nearly_in_the_arms_plane():
     places = PUMA560.frames(q).translation
     step = PUMA560.fk(q + [0, 1e-6, 0, 0, 0, 0]).translation - PUMA560.fk(q).translation
     lifted = PUMA560.fk(q + [0, 0, 1e-6, 0, 0, 0]).translation - PUMA560.fk(q).translation
-    normal = np.cross(step, lifted)  # joints 2 and 3 move the wrist centre in the plane
+    normal = np.cross(step, lifted)  # joints 2 and 3 move the flange in the arm's plane
     normal /= np.linalg.norm(normal)
     assert np.isfinite(places).all() and abs(normal[2]) < 1e-6
     assert round(90 - np.arccos(abs(normal[1])) / deg, 1) == said == 6.6

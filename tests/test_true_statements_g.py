@@ -1,5 +1,5 @@
-"""Statements of labs 08 and 09 that a fourth reader refuted or doubted, computed again with
-inverses, times, queues and races written here from the definitions in the labs.
+"""Statements of labs 08 and 09 that a fourth reader refuted or doubted, recomputed with inverses,
+times, queues and races written here from the definitions in the labs.
 """
 
 import cmath
@@ -51,7 +51,7 @@ def joints_of(p, l1=5.0, l2=4.0):
 
 
 def place_of(q, l1=5.0, l2=4.0):
-    """The tool's position, found by turning one lever after the other."""
+    """The tool's position, computed by rotating one lever after the other."""
     link = 1j * cmath.exp(-1j * q[1])
     tool = l1 * link + l2 * link * cmath.exp(-1j * (math.pi / 2 + q[2]))
     return np.array([tool.real * math.cos(q[0]), tool.real * math.sin(q[0]), tool.imag])
@@ -82,7 +82,7 @@ def bin_on_the_axis(order, places, home, speed=0.2):
     return spent
 
 
-def test_order_of_the_angles_turns_joint_1_least():
+def test_visiting_in_order_of_angle_turns_joint_1_least():
     second = one_line(option("visit_and_collect.p5", "container on axis 1").second)
     assert second.endswith(
         "Four objects round the axis: joint 1 turns least in the order of their angles, from one "
@@ -101,7 +101,7 @@ def test_order_of_the_angles_turns_joint_1_least():
     rising = tuple(np.argsort(angles).tolist())
     assert {o for o, t in took.items() if t < min(took.values()) + 1e-9} == {rising, rising[::-1]}
     assert round(took[rising], 2) == 38.16
-    # "whoever goes round in order" was not the quickest, nor were others slower:
+    # an earlier text was wrong: another order is quicker than going round in order
     assert round(took[0, 1, 2, 3], 2) == 53.87 and round(took[0, 3, 1, 2], 2) == 46.02
 
 
@@ -117,7 +117,7 @@ def round_trip(legs, order, T):
 
 
 def nearest(legs, cost):
-    """The order that always takes the cheapest next stop."""
+    """The order in which every next stop is the cheapest one."""
     order, here = [], 0
     while rest := set(range(1, len(legs))) - set(order):
         here = min(rest, key=lambda stop: cost(here, stop))
@@ -130,7 +130,7 @@ def table(places, speed=0.2):
     return [[needs(a, b, speed) for b in q] for a in q]
 
 
-def test_round_with_a_way_home_beats_nearest_first_as_stated():
+def test_another_round_trip_beats_nearest_first_as_stated():
     reason = one_line(option("visit_and_collect.p5", "emptied at the end").reason)
     assert "this is visiting with a way home. At" in reason
     told = r"At (\d+) s nearest first brings (\d) of the opening's points, another order (\d)\."
@@ -140,13 +140,13 @@ def test_round_with_a_way_home_beats_nearest_first_as_stated():
     legs = table([[4 * math.cos(a), 4 * math.sin(a), 2] for a in azimuth])
     rules = (
         lambda here, stop: legs[here][stop],
-        # the time that the stop adds
+        # the time that the stop adds to the round trip
         lambda here, stop: legs[here][stop] + legs[stop][0] - legs[here][0],
     )
     orders = [*permutations(range(1, 5))]
     for rule in rules:
         assert round_trip(legs, nearest(legs, rule), T) == few == 1
-        # with the opening's T, neither rule brings any
+        # within the opening's T, neither rule brings any object home
         assert round_trip(legs, nearest(legs, rule), 7.5) == 0
     assert max(round_trip(legs, order, T) for order in orders) == many == 3
     assert max(round_trip(legs, order, 7.5) for order in orders) == 0
@@ -189,7 +189,7 @@ def test_time_to_collect_is_three_times_the_time_to_visit():
             assert check("visit_and_collect.3", made["my_traps"], who=who).holds
 
 
-def test_differences_are_negative_for_the_stated_shares():
+def test_all_differences_are_negative_in_the_stated_range():
     words = flat("08", "check-look")
     told = r"for a share of (\S+) or more and below (\S+) every difference is negative"
     low, high = numbers(told, words)
@@ -200,7 +200,7 @@ def test_differences_are_negative_for_the_stated_shares():
         assert (place_of(joints_of(share * aim)) - aim < 0).all()
     assert not (place_of(joints_of(high * aim)) - aim < -1e-12).any()
     made = quietly("08", "opening", "setup", "chain-code", "inverse-code", "check-code")
-    for share in np.linspace(0.01, least - 0.001, 20):  # "a share below 1" was false here
+    for share in np.linspace(0.01, least - 0.001, 20):  # points out of reach
         assert np.isnan(joints_of(share * aim)).all()
         assert not made["careless"](made["my_ik"](share * aim, 5, 4), aim)
     assert made["careless"](made["my_ik"](low * aim, 5, 4), aim)
@@ -219,7 +219,7 @@ def belt_stream(spread, seed):
 
 
 def belt_ways():
-    """The time from the bin to each place in the window, one way, in s."""
+    """The one-way time from the bin to each place in the window, in s."""
     stand = joints_of([0.15, -0.45, 0.25], 0.5, 0.4)
     window = np.linspace(-0.4, 0.4, 161)
     return [15 / 8 * needs(stand, joints_of([0.6, y, 0.05], 0.5, 0.4), 2.0) for y in window]
@@ -229,7 +229,7 @@ WAYS = np.array(belt_ways())
 
 
 def one_arm(arrivals, v):
-    """One arm that always takes the object with which it is back soonest: the times when it is
+    """For an arm that always takes the object with which it is back soonest: the times when it is
     back, and the arrivals that it misses.
     """
     left, free, backs = [*arrivals], 0.0, []
@@ -284,7 +284,7 @@ def test_belt_table_shows_one_stream_and_others_need_one_more_arm():
         assert (arms_needed(0.2, 1, seed), arms_needed(0.3, 1, seed)) == (4, 5)
 
 
-def test_player_at_the_belt_shows_the_streams_of_the_table():
+def test_belt_player_shows_the_streams_of_the_table():
     assert "six seconds of the table's streams at 200 mm/s" in flat("08", "belt-look")
     made = quietly("08", "opening", "setup", "chain-code", "belt-code", "belt-motion")
     head = cells("08")["belt-player"].split("\nedge, side")[0]
@@ -295,19 +295,21 @@ def test_player_at_the_belt_shows_the_streams_of_the_table():
     for k, spread in enumerate(made["player_spreads"]):
         left = belt_stream(spread, 8) / 0.2
         for arm in range(3):
-            backs, left = one_arm(np.array(left) + (arm > 0) * 5.0, 0.2)  # 1 m farther on
+            # the second and third arms are 1 m farther along the belt than the one before
+            backs, left = one_arm(np.array(left) + (arm > 0) * 5.0, 0.2)
             wanted = [sum(back <= now for back in backs) for now in clock]
             assert made["in_bin"][arm][k].tolist() == wanted
         assert not left  # three arms are enough, as the table says
         busy.append(wanted[-1] - wanted[0])
-    assert busy[0] == 0 and busy[1] > 0 and busy[2] > busy[1]  # arm 3 has work at spreads 0.5 and 1
+    # arm 3 picks objects only at spreads 0.5 and 1
+    assert busy[0] == 0 and busy[1] > 0 and busy[2] > busy[1]
 
 
 def test_changing_only_alpha_to_plus_90_mirrors_the_arm_in_the_floor():
     words = flat("08", "deeper-more")
     assert "Turn the −90 of `alpha` into +90: on which side of the floor is the tool now?" in words
     (made,) = re.findall(r"`(elbow_arm\(.*?\.limits\))`", words)
-    assert made.count("-90") == 2  # so "the −90" alone did not say which
+    assert made.count("-90") == 2  # so "the −90" alone was ambiguous
     space = {"np": np, "deg": deg, "dh_links": dh_links, "elbow_arm": elbow_arm}
     space["arm"] = spbu_arm(5, 4)
     changed = [made, made.replace("alpha=np.array([-90", "alpha=np.array([90")]
@@ -324,7 +326,7 @@ def test_changing_only_alpha_to_plus_90_mirrors_the_arm_in_the_floor():
 
 
 def gripper(q, bend=-1, lengths=(1, 1, 1)):
-    """K as a complex number; bend -1: the chain turns clockwise, +1: the other way."""
+    """K as a complex number; the chain turns clockwise if bend is -1, counterclockwise if +1."""
     place, way = 0j, cmath.exp(1j * q[0])
     for length, inner in zip(lengths, [*q[1:], math.pi], strict=True):
         place += length * way
@@ -333,8 +335,8 @@ def gripper(q, bend=-1, lengths=(1, 1, 1)):
 
 
 def family(K, alpha, bend=-1):
-    """The posture at K, from the intersections of two circles: B left of OK if the chain turns
-    clockwise, right of it if the other way.
+    """The posture at K, from the intersections of two circles: B is left of OK if the chain turns
+    clockwise, and right of it otherwise.
     """
     KB, KO = 2 * math.sin(alpha / 2), abs(K)
     along = (KO**2 + 1 - KB**2) / (2 * KO)
@@ -345,7 +347,7 @@ def family(K, alpha, bend=-1):
 
 
 def least_from(K, before):
-    """The least sum of turns S and its posture, by a fine sweep and a search near its best row."""
+    """The least sum of turns S and its posture, by a fine sweep and a search near its minimum."""
     low = math.acos((5 - abs(K) ** 2) / 4)
 
     def turned(alpha):
@@ -372,7 +374,7 @@ def test_family_in_this_file_is_correct():
             assert gripper(family(K, alpha, bend), bend) == pytest.approx(K)
 
 
-def test_random_choice_turns_less_in_the_stated_number_of_tasks_but_never_from_one_posture():
+def test_random_choice_turns_less_as_often_as_stated_but_never_from_the_same_posture():
     found = option("three_levers.p10", "hardly more")
     reason = one_line(found.reason)
     assert (
@@ -398,11 +400,13 @@ def test_random_choice_turns_less_in_the_stated_number_of_tasks_but_never_from_o
         least, saver = least_from(K, saver)
         turns.append((thrown, least, could))
     thrown, least, could = np.array(turns).T / deg
-    assert (thrown > could - 1e-4).all()  # from one posture never less ...
-    assert (thrown > could + 0.1).sum() > 95  # ... and nearly always more
+    # a throw never turns less than the least movement from the same posture, and nearly always more
+    assert (thrown > could - 1e-4).all()
+    assert (thrown > could + 0.1).sum() > 95
     assert abs(thrown - least).min() > 0.01 and (thrown < least).sum() == fewer == 14
-    assert (least - thrown).max() == pytest.approx(65.9, abs=0.05)  # "never quicker" was false
-    assert thrown.sum() > 1.4 * least.sum()  # "but not in the sum"
+    # a throw can turn less than the other arm in a single task, but not in the sum
+    assert (least - thrown).max() == pytest.approx(65.9, abs=0.05)
+    assert thrown.sum() > 1.4 * least.sum()
 
 
 def width(KO):
@@ -410,7 +414,7 @@ def width(KO):
     return 180 - math.degrees(math.acos((5 - KO**2) / 4))
 
 
-def test_narrower_range_is_the_one_in_inverse_proportion():
+def test_the_narrower_range_follows_from_inverse_proportion():
     found = option("three_levers.p2", "in proportion")
     (said,) = numbers(r"^Narrower, (\S+)°: in inverse proportion to the distance\.$", found.text)
     assert said == round(width(1.5) * 1.5 / 2.8, 1)
@@ -422,7 +426,7 @@ def test_narrower_range_is_the_one_in_inverse_proportion():
     (far,) = numbers(r"In inverse proportion the arm could still choose at (\S+) m, where", second)
     assert width(1.5) * 1.5 / far > 1 and far > 3
     falls = [(width(a) - width(b)) / (b - a) for a, b in pairwise([2.0, 2.5, 2.9, 2.99, 3.0])]
-    assert sorted(falls) == falls and falls[-1] > 10 * falls[0]  # steeper and steeper
+    assert sorted(falls) == falls and falls[-1] > 10 * falls[0]  # a steeper and steeper fall
 
 
 def test_recipe_for_the_other_bend_reaches_targets_behind_the_base():
@@ -433,7 +437,7 @@ def test_recipe_for_the_other_bend_reaches_targets_behind_the_base():
     )
     made = quietly("09", "imports", "opening", "chain-code", "range-code", "angles-code")
     mirrored = 2 * np.array([np.cos(150 * deg), -np.sin(150 * deg)])
-    assert np.isnan(ARM.alpha_range(mirrored)).all()  # "solve" with these gives nothing
+    assert np.isnan(ARM.alpha_range(mirrored)).all()  # the package's solvers find nothing
     assert np.isnan(ARM.least(mirrored, np.array([60, 120, 120]) * deg)[1])
     shares = {}
     for phi in np.arange(92.5, 180, 5):
@@ -495,7 +499,7 @@ def test_clipped_arm_stretches_or_folds_and_does_not_reach_k():
 # --- Lab 10 ---------------------------------------------------------------------------------------
 
 
-def test_levers_80_mm_wide_lose_no_plan_but_need_a_larger_circle():
+def test_plans_for_80_mm_wide_levers_exist_but_one_needs_a_larger_circle():
     claim = "levers 80 mm wide lose no plan, but past (1.6, 1.3) m they need a larger circle"
     assert any(claim in text for text in cells("10").values())
     answers = []

@@ -1,4 +1,4 @@
-"""Statements that the last readers of the labs refuted, computed again."""
+"""Statements that the last readers of the labs refuted, recomputed."""
 
 import math
 import re
@@ -15,8 +15,8 @@ from robokin.course import book
 # --- Lab 06 ---------------------------------------------------------------------------------------
 
 
-def test_the_pose_to_type_is_the_hit_where_two_pairs_of_rows_become_one():
-    """The tool of the first cell: half a turn about z, then a quarter about y."""
+def test_two_pairs_of_rows_coincide_at_the_suggested_pose():
+    """The first cell rotates the tool half a turn about z, then a quarter turn about y."""
     typed = re.search(
         r"type x (\S+), y (\S+), z (\S+), roll (\S+), pitch (\S+), yaw (\S+), compare rows 2 and 3",
         flat("06", "drag-target-look"),
@@ -34,8 +34,8 @@ def test_the_pose_to_type_is_the_hit_where_two_pairs_of_rows_become_one():
 # --- Lab 08 ---------------------------------------------------------------------------------------
 
 
-def test_the_speed_at_which_the_sinking_arm_folds_has_the_digits_shown():
-    """cos rule: L2^2 = r^2 + L1^2 - 2 r L1 cos(gamma), with the height falling 1 m each second."""
+def test_greatest_speed_of_the_sinking_arms_joint_2_is_as_shown():
+    """By the law of cosines, L2^2 = r^2 + L1^2 - 2 r L1 cos(gamma); the tool sinks at 1 m/s."""
     (count, told) = numbers(
         r"greatest speed of (\d+) samples (\S+) °/s \(joint 2\)", shown("08", "zone-player")
     )
@@ -54,7 +54,7 @@ def test_the_speed_at_which_the_sinking_arm_folds_has_the_digits_shown():
     assert count == 421 and told == pytest.approx(max(speeds) / deg, abs=0.06)
 
 
-def test_the_arms_at_the_belt_turn_joint_1_at_most_2_rad_per_second():
+def test_greatest_speed_of_each_belt_arms_joint_1_is_2_rad_per_second():
     told = re.findall(
         r"greatest speed of (\d+) samples (\S+) °/s \(joint 1\)", shown("08", "belt-player")
     )
@@ -62,7 +62,7 @@ def test_the_arms_at_the_belt_turn_joint_1_at_most_2_rad_per_second():
     assert {speed for _, speed in told} == {f"{math.degrees(2):.1f}"}, "the limit of the planner"
 
 
-def test_the_inverse_that_searches_stops_less_than_1e_8_m_from_the_point():
+def test_searching_inverse_stops_less_than_1e_8_m_from_the_point():
     path = book.OURS / "visit_and_collect" / "inverse_programs.md"
     assert "stops less than 1e-8 m from the point" in path.read_text(encoding="utf-8")
     rng = np.random.default_rng(8)
@@ -78,8 +78,8 @@ def test_the_inverse_that_searches_stops_less_than_1e_8_m_from_the_point():
 # --- Lab 03 ---------------------------------------------------------------------------------------
 
 
-def test_greatest_accelerations_of_both_corners_have_the_digits_shown():
-    """By central differences of fourth order, 2 ms apart, every 1 ms near the corner."""
+def test_greatest_accelerations_of_both_corners_are_as_shown():
+    """The accelerations are fourth-order central differences of samples 2 ms apart."""
     row = IRB140.branch(+1, +1, -1)
     shown_numbers = re.findall(
         r"\(blend (\S+)\) (\S+) rad/s²", book.find("irb140_motion.p7", "predictions").view()
@@ -99,8 +99,8 @@ def test_greatest_accelerations_of_both_corners_have_the_digits_shown():
         assert float(told) == pytest.approx(abs(q @ weights).max(), abs=6e-5)
 
 
-def test_a_class_of_joints_is_rounded_by_both_corners():
-    """The class that the lab proposes, with the line as it is printed there."""
+def test_both_corners_round_paths_of_the_suggested_joints_class():
+    """Test the class suggested in the lab, with the line of code printed there."""
     (line,) = re.findall(r"returns `(Joints\(.*?)`, and round", flat("03", "deeper-own"))
 
     class Joints:
@@ -122,7 +122,7 @@ def test_a_class_of_joints_is_rounded_by_both_corners():
 # --- Lab 05 ---------------------------------------------------------------------------------------
 
 
-def test_the_goal_straight_down_is_below_the_height_of_the_lift():
+def test_the_lower_goal_is_reachable_and_below_the_lift_height():
     text = flat("05", "deeper-zones")
     (x, y, z, angle) = numbers(
         r"lower goal, `target\((\S+), (\S+), (\S+), (\S+)\)`, that lifts", text

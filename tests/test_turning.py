@@ -36,14 +36,14 @@ def test_chain_is_the_rotated_planar_arm(arm, shape):
     q = postures(arm, shape)
     np.testing.assert_allclose(arm.fk(q).translation, tip(arm, q), rtol=0, atol=1e-14)
     turn = np.append(q[..., :1], np.zeros((*shape, 3)), axis=-1)
-    elbow = arm.frames(q)[..., 3].translation  # joint 3 has turned at B
+    elbow = arm.frames(q)[..., 3].translation  # point B, where joint 3 is
     aside = elbow[..., 1] * np.cos(turn[..., 0]) - elbow[..., 0] * np.sin(turn[..., 0])
     assert abs(aside).max() < 1e-14 and arm.limits.shape == (4, 2)
 
 
 @arms
 @pytest.mark.parametrize("shape", SHAPES)
-def test_least_reaches_the_point_within_the_limits(arm, shape):
+def test_least_movement_reaches_the_point_within_the_limits(arm, shape):
     points, before = tip(arm, postures(arm, shape)), postures(arm, shape, seed=2)
     q, S = arm.least(points, before)
     assert q.shape == (*shape, 4) and S.shape == shape
@@ -55,7 +55,7 @@ def test_least_reaches_the_point_within_the_limits(arm, shape):
 
 @arms
 def test_no_other_posture_moves_less(arm):
-    """Brute force over both turns and 2001 alphas; each turn is sometimes the better one."""
+    """Brute force over both base angles and 2001 alphas; each base angle is sometimes better."""
     points, before = tip(arm, postures(arm, (300,))), postures(arm, (300,), seed=2)
     plane = arm.geometry.plane
     q, S = arm.least(points, before)

@@ -57,7 +57,7 @@ from robokin.show.twin import arm_data
 
 SCRIPTS = Path(robokin.show.__file__).parent / "js"
 TURN = 2 * np.pi
-# axis 1 is not in the plane of the arm, so the point cannot come near it
+# axis 1 is not in the plane of the arm, so the end point cannot come near it
 BESIDE = elbow_arm(
     "Beside",
     dh_links(a=[0.05, 0.43, 0.38], alpha=np.array([90, 0, 0]) * deg, d=[0.6, 0.15, 0]),
@@ -170,8 +170,8 @@ def close(got, want, tolerance, modulo=None):
 
 
 def tiny(rng, n):
-    """Zeros and small values of either sign, down to rounding errors; none is a power of ten, since
-    the words change there.
+    """Zeros and small values of either sign, down to rounding errors; none is a power of ten, where
+    the wording of explanations changes.
     """
     size = rng.choice([-3.0, 3.0], n) * 10.0 ** -rng.integers(1, 17, n)
     return np.where(rng.random(n) < 0.25, 0.0, size)
@@ -206,7 +206,7 @@ def measures(arm):
 
 
 def places(arm, rng):
-    """Positions for the point that the first joints carry: kind -> (n, 3)."""
+    """Positions of the point that the first joints move: kind -> array of shape (n, 3)."""
     upper, fore, ahead, height, lateral = measures(arm)
     flat = not hasattr(arm.geometry, "elbow")
 
@@ -283,7 +283,7 @@ def _asked(arm, tool, rng):
 
 
 def numbers(pose):
-    """A batch of poses as an array for `posed`: (n, 7), (n, 4) or (n, 3)."""
+    """A batch of poses as an array for `posed`, of shape (n, 7), (n, 4) or (n, 3)."""
     if isinstance(pose, Transform):
         return np.concatenate([pose.translation, pose.rotation.wxyz], axis=-1)
     if isinstance(pose, ScaraPose):
@@ -317,8 +317,7 @@ def test_page_computes_the_same_rows(twin, name):
             assert np.isnan(got).all() == np.isnan(want).all()
             assert (np.isnan(got) == np.isnan(want)).all()
             continue
-        # pi and -pi are the same angle; atan2 decides between them, or its last bit when angles are
-        # added
+        # pi and -pi are the same angle, and rounding errors decide which one is returned
         close(got, want, 1e-14 * (1 + 4 * twin.noisy), modulo=TURN)
         turning = abs(got[..., arm.turning])
         assert np.nanmax(turning) <= np.pi * (1 + 1e-15 * (1 + twin.noisy))
@@ -368,8 +367,8 @@ def at_limits(arm, rng, n):
 
 @every_arm
 def test_page_chooses_the_same_joint_values(twin, name):
-    """`within`, `representative`, `unwrapped` and `nearest` on the same rows: equal to the last
-    bit, since they use only + - * / and rounding.
+    """`within`, `representative`, `unwrapped` and `nearest` agree with Python to the last bit,
+    since they use only + - * / and rounding.
     """
     arm, rng = ARMS[name], np.random.default_rng(6)
     n = len(arm.links)
@@ -406,7 +405,7 @@ def test_page_chooses_the_same_joint_values(twin, name):
 
 
 def follows(twin, arm, rows, starts):
-    """Run `follow` on every motion (motions, samples, rows, n), each from its own row."""
+    """Run `follow` on rows of shape (motions, samples, rows, n), each motion from its own row."""
     motions, samples, count, n = rows.shape
     body = (
         "const [samples, count, n] = b;"
@@ -417,8 +416,8 @@ def follows(twin, arm, rows, starts):
 
 @every_arm
 def test_page_follows_the_same_rows(twin, name):
-    """Motions follow Python's rows: across missing rows, from and through singularities, and with
-    half turns.
+    """Motions follow the same rows as in Python: across missing rows, from and through
+    singularities, and with half turns.
     """
     arm, rng = ARMS[name], np.random.default_rng(7)
     rows = half_turns(arm, rng, 60, 12, len(arm.branches))
@@ -437,7 +436,7 @@ def test_page_follows_the_same_rows(twin, name):
 @cache
 def corners(name, i):
     """Three poses of a motion with random joint values; some motions lead through a wrist or
-    shoulder singularity, some begin in a posture with round angles, some leave the reach.
+    shoulder singularity, some begin in a posture with round angles, some go out of reach.
     """
     arm, rng = ARMS[name], np.random.default_rng(100 + i)
     low, high = arm.limits.T
@@ -491,7 +490,7 @@ def test_page_computes_the_same_motions(twin, name):
         want.append(chained(name, i, row))
         given = [flat.shape[1], [0.0, 0.1, 0.25, 0.5][i % 4], i % 2, row]
         got.append(twin(body, arm, flat, given, t, shape=want[-1].shape))
-    # with noise, a joint that starts half a turn away may do so on either side
+    # with noise, a joint that starts half a turn away can start on either side
     close(np.array(got), np.array(want), 1e-6, modulo=TURN if twin.noisy else None)
 
 
@@ -644,8 +643,8 @@ def test_page_computes_the_same_laws_and_derivatives(twin):
 
 
 def test_page_refines_the_same_maxima(twin):
-    """The maxima of a sine, of a corner and of a partly undefined function are refined in the same
-    steps.
+    """Page and Python refine the maxima of a sine, of a corner and of a partly undefined function
+    in the same steps.
     """
     for low, high, decimals in ((0, 3, 1), (0.4, 1.9, 3), (-2, -0.7, 5)):
         got = twin(
@@ -741,8 +740,8 @@ def test_page_computes_the_same_recordings(twin):
 
 
 def test_page_chooses_the_same_scales(twin):
-    """The scales equal Python's, which are Matplotlib's, for ranges of all sizes, far from 0, and
-    empty.
+    """The scales match Python's, which are Matplotlib's, for ranges of all sizes, ranges far from 0
+    and empty ranges.
     """
     rng = np.random.default_rng(18)
     low = rng.normal(size=600) * 10.0 ** rng.uniform(-4, 4, 600)
@@ -759,7 +758,7 @@ def test_page_chooses_the_same_scales(twin):
     close(got, np.array([scale(*pair) for pair in ends.tolist()]), 1e-12)
 
 
-# --- Explanations in words -----------------------------------------------------------------------
+# --- Explanations --------------------------------------------------------------------------------
 
 EXPLAIN = """([arm, list]) => list.map(([pose, row]) =>
   [explain(arm, posed(pose), row), Object.entries(singularities(arm, ik(arm, posed(pose))[row]))
@@ -767,12 +766,12 @@ EXPLAIN = """([arm, list]) => list.map(([pose, row]) =>
 
 
 @every_arm
-def test_page_explains_in_the_same_words(twin, name):
-    """For every reason, the sentences equal those of Python's `explain`."""
+def test_page_gives_the_same_explanations(twin, name):
+    """For every reason, the sentences match those of Python's `explain`."""
     arm, rng = ARMS[name], np.random.default_rng(12)
     asked, want = [], []
     for kind, pose in poses(name).items():
-        # half a turn is 180 or -180 degrees: there the words depend on noise
+        # half a turn is shown as 180 or -180 degrees, depending on the noise
         if twin.noisy and kind not in ("postures", "places", "far"):
             continue
         flat = numbers(pose)

@@ -22,7 +22,7 @@ lengths = pytest.mark.parametrize("l1, l2", [(1, 1), (1, 1.5), (2, 0.3), (0.3, 2
 
 
 def elbows(arm, rows):
-    """The positions (x2, y2) of the elbow, the document's unknown."""
+    """The positions (x2, y2) of the elbow, the unknowns of the document."""
     return arm.frames(rows)[..., 1].translation[..., :2]
 
 
@@ -30,7 +30,7 @@ def elbows(arm, rows):
 
 
 @cases
-def test_ik_equals_the_reference_cases(case):
+def test_ik_matches_the_reference_cases(case):
     arm = two_link(case["l1"], case["l2"], case["base"])
     rows = arm.ik(case["target"])
     if not case["reachable"]:
@@ -82,7 +82,7 @@ def test_ik_is_correct_at_and_near_x3_equal_to_zero(x3):
     tiny = arm.ik((x3, 0.0))  # the tip is on the base, or almost
     np.testing.assert_allclose(arm.fk(tiny).translation, [(x3, 0, 0)] * 2, atol=1e-15)
     assert abs(tiny[:, 1]) == pytest.approx(np.pi, abs=2e-9)
-    if x3:  # then link 1 is perpendicular to the line to the tip, on either side
+    if x3:  # link 1 is then perpendicular to the line to the tip, on either side
         ahead = 0 if x3 > 0 else np.pi
         assert turns(tiny[:, 0], [ahead - np.pi / 2, ahead + np.pi / 2]).max() < 1e-9
 
@@ -115,7 +115,7 @@ def test_stretched_and_folded_arms_are_reachable_and_points_beyond_are_not(l1, l
     assert np.isnan(arm.ik((x, y, 1e-3))).all() and np.isfinite(arm.ik((x, y, 0))).all()
 
 
-def test_explain_states_each_reason_in_words():
+def test_explain_states_each_reason():
     arm = two_link(1, 1.5)
     assert "does not exist: the target is 500.0 mm beyond the stretched arm" in explain(
         arm, (3, 0), 0
@@ -172,7 +172,7 @@ def test_the_printed_y2_has_a_wrong_denominator():
         printed(0.0, 0.3, 1)
 
 
-def test_the_printed_root_swaps_the_elbow_with_the_sign_of_x3():
+def test_the_printed_root_swaps_the_elbow_when_x3_changes_sign():
     sides = []
     for x3 in (0.1, -0.1):
         x2, y2 = printed(x3, 1, 1)
@@ -202,7 +202,8 @@ def general():
     x1, y1, x3, y3, l1, l2 = symbols = sp.symbols("x1 y1 x3 y3 l1 l2")
     dx, dy = x3 - x1, y3 - y1
     d2 = dx**2 + dy**2
-    # the foot of the elbow on the line from base to tip, as a share of its length
+    # the foot of the perpendicular from the elbow to the line from base to tip, as a fraction of
+    # the length of that line
     along = (d2 + l1**2 - l2**2) / (2 * d2)
     across = sp.sqrt(l1**2 / d2 - along**2)
     return symbols, [
@@ -235,8 +236,8 @@ def test_the_general_solution_solves_the_two_circles():
 
 
 def c_source(name, symbols, expressions):
-    """A C function of doubles, out[] last (the document's casts to int, errata S2-c, are left
-    out).
+    """A C function of doubles with out[] as its last argument, without the document's casts to int
+    (errata S2-c).
     """
     steps, results = sp.cse(expressions)
     lines = [f"    const double {target} = {sp.ccode(step)};" for target, step in steps]
