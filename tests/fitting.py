@@ -2,7 +2,11 @@
 
 # JupyterLab at 1366 x 768 with its file browser open shows 647 px of a notebook, 914 px wide.
 SCREEN = {"width": 1366, "height": 768}
-MOST = {"rk-wide": 640, "rk-several": 600}  # px for several arms in one scene, and side by side
+MOST = {
+    "rk-wide": 640,
+    "rk-several": 600,
+    "rk-figure": 640,
+}  # px for several arms in one scene, and side by side; for joint curves
 ONE = 560  # px for one arm and for every explorer
 PLOT, ARM, FRAME = 180, 150, 300  # px of the large panel and of the arm in a frame of 300 x 300
 
@@ -19,7 +23,7 @@ RECORD = """
     return strokeRect.apply(this, box);
   };
   window.viewSizes = () => [...document.querySelectorAll(".robokin-player .rk")]
-    .filter(view => view.checkVisibility() && !view.querySelector(".rk-question"))
+    .filter(view => view.checkVisibility())
     .map(view => {
       const box = view.getBoundingClientRect();
       const heights = [...view.querySelectorAll("canvas")].map(canvas => canvas.clientHeight);
@@ -27,7 +31,7 @@ RECORD = """
         .flatMap(canvas => (frames.get(canvas) ?? []).map(frame => frame[3]));
       return {
         kind: view.className, width: box.width, height: box.height,
-        wide: !!view.querySelector(".rk-wide"), several: !!view.querySelector(".rk-several"),
+        names: [view, ...view.querySelectorAll(".rk-views")].map(each => each.className).join(" "),
         canvas: Math.max(0, ...heights), plot: Math.max(0, ...plots),
         title: view.querySelector(".rk-title")?.textContent ?? "",
       };
@@ -37,12 +41,27 @@ RECORD = """
 
 
 def sizes(page):
-    """The size of every visible view of a page, with the greatest height wanted; questions are not
-    views, but what opens behind them is.
-    """
+    """The size of every visible view of a page, with the greatest height wanted."""
     found = page.evaluate("viewSizes()")
     for view in found:
-        view["most"] = (
-            MOST["rk-wide"] if view["wide"] else MOST["rk-several"] if view["several"] else ONE
-        )
+        view["most"] = max((MOST[name] for name in MOST if name in view["names"]), default=ONE)
     return found
+
+
+def walked(page):
+    """The sizes of all views of a notebook in JupyterLab, which draws only what is near the screen:
+    scroll through it.
+    """
+    scroller = page.locator(".jp-WindowedPanel-outer").first
+    found, end = {}, False
+    for place in range(400):
+        scroller.evaluate("(panel, top) => { panel.scrollTop = top; }", 400 * place)
+        page.wait_for_timeout(250)  # a view starts half a screen before it is seen
+        for view in sizes(page):
+            found[view["kind"], view["title"]] = view
+        if end:
+            return list(found.values())
+        end = scroller.evaluate(
+            "panel => panel.scrollTop + panel.clientHeight >= panel.scrollHeight - 2"
+        )
+    raise AssertionError("the notebook does not end")

@@ -45,16 +45,7 @@ def _parser() -> argparse.ArgumentParser:
 
     labs: dict[str, Any] = {"nargs": "+", "metavar": "LAB", "type": Path}
     to: dict[str, Any] = {"metavar": "FOLDER", "type": Path, "default": Path()}
-    copy = command(
-        _copy,
-        "copy the labs into a student's folder, and newer versions later",
-        "Copy the labs into FOLDER, trusted. When run again, it replaces the labs that the student "
-        "has not edited (running a lab does not count as editing) and keeps the student's work: "
-        "the newer lab is then put beside it, as NAME.new.ipynb.",
-    )
-    copy.add_argument("folder", metavar="FOLDER", type=Path, help="the student's folder")
-    where = "where the labs are (default: in the clone that robokin is installed from)"
-    copy.add_argument("--from", dest="source", metavar="FOLDER", type=Path, help=where)
+    _copy_arguments(command)
 
     export = command(
         _export,
@@ -88,6 +79,24 @@ def _parser() -> argparse.ArgumentParser:
         own = "a folder with exercises for labs of your own, one subfolder for each lab"
         each.add_argument("--exercises", metavar="FOLDER", type=Path, help=own)
 
+    _site_arguments(command)
+    return parser
+
+
+def _copy_arguments(command: Callable[..., argparse.ArgumentParser]) -> None:
+    copy = command(
+        _copy,
+        "copy the labs into a student's folder, and newer versions later",
+        "Copy the labs into FOLDER, trusted. When run again, it replaces the labs that the student "
+        "has not edited (running a lab does not count as editing) and keeps the student's work: "
+        "the newer lab is then put beside it, as NAME.new.ipynb.",
+    )
+    copy.add_argument("folder", metavar="FOLDER", type=Path, help="the student's folder")
+    where = "where the labs are (default: in the clone that robokin is installed from)"
+    copy.add_argument("--from", dest="source", metavar="FOLDER", type=Path, help=where)
+
+
+def _site_arguments(command: Callable[..., argparse.ArgumentParser]) -> None:
     site = command(
         _site,
         "write all labs and the package reference as pages that work without Python",
@@ -104,7 +113,6 @@ def _parser() -> argparse.ArgumentParser:
         action="store_false",
         help="leave out the notes for teachers, which contain the answers to the oral questions",
     )
-    return parser
 
 
 def _add(folder: Path) -> None:

@@ -54,7 +54,7 @@ def variant(lab: str, who: Any) -> Numbers:
     """
     given = _lab(lab).given
     if given is None:
-        raise ValueError(f"lab: {lab} has no individual numbers")
+        raise ValueError(f"lab: {lab} has no numbers of your own")
     made: Numbers = given(who)
     return made
 

@@ -205,9 +205,10 @@ def summary_and_alt(
         speeds = arm["speed"]
         fastest = max(range(len(speeds[0])), key=lambda j: max(row[j] for row in speeds))
         name = unit["name"] if arm["chain"][fastest]["prismatic"] else "°"
+        apart = ", apart from jumps of position," if arm["leaps"] else ""
         parts.append(
-            f"{label}greatest speed of {len(t)} samples {max(row[fastest] for row in speeds):g} "
-            f"{name}/s (joint {fastest + 1})"
+            f"{label}greatest speed of {len(t)} samples{apart} "
+            f"{max(row[fastest] for row in speeds):g} {name}/s (joint {fastest + 1})"
         )
         if arm["via"] and any(arm["via"]):
             near = [v[0] for v in arm["via"] if v]

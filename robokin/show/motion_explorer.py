@@ -34,7 +34,7 @@ from .explorer import (
     units,
 )
 from .findings import flags
-from .page import Corner, Law, MotionPage
+from .page import Control, Corner, Law, MotionPage
 from .palette import DASHES
 from .player import still_picture
 from .things import Target
@@ -74,38 +74,24 @@ def motion_explorer(
     for name, pose in stations.items():
         if instance(pose, kind, name).shape:
             raise ValueError(f"{name}: wanted a single pose, got a batch of shape {pose.shape}")
-    unit, size = length_unit(extent(arm))
     choice(law, "law", list(LAWS))
-    wanted = f"from {SHORTEST:g} to {LONGEST:g} s"
-    seconds = positive(duration, "duration", wanted)
-    if not SHORTEST <= seconds <= LONGEST:
-        raise ValueError(f"duration: wanted {wanted}, got {short(duration)}")
+    seconds = _seconds(duration)
     progress = LAWS[law](seconds)
     t = np.linspace(0, seconds, SAMPLES)
     rows = arm.ik(blend(start, via, goal, 0.1, progress(t)))
     motions = [follow(arm, rows, k) for k in range(len(arm.branches))]
     usable = [(record(arm, t, q).excess <= 0).all(axis=-1).sum() for q in motions]
     row = int(np.argmax(usable)) if row is None else whole(row, "row", 0, len(usable) - 1)
-    most = float(np.ceil(1.05 * extent(arm) / (50 * mm)) * 50 * mm / size)
-    step = 1 if size == mm else 0.001
-    controls = [control(f"via {letter}", unit, -most, most, step) for letter in "xyz"]
-    controls.append(control("blend", "", 0, 0.5, 0.01, 3))
-    controls.append(control("duration", "s", SHORTEST, LONGEST, 0.5, 2))
     posed = {name: as_transform(pose) for name, pose in stations.items()}
     through = motions[row][np.isfinite(motions[row]).all(axis=-1)][::40]
-    speed, j, of = _fastest(
-        arm, lambda x: blend(start, via, goal, 0.1, progress(x)), t, motions[row]
-    )
-    summary = (
-        f"{arm.name} on a blended motion past a via point that can be moved, {seconds:g} s, "
-        f"blend 0.1, branch {flags(arm, row)}: greatest speed{of} {number(speed, 1)} "
-        f"{units(arm)[j]['name']}/s (joint {j + 1})."
+    summary = _summary(
+        arm, lambda x: blend(start, via, goal, 0.1, progress(x)), t, motions[row], row
     )
     page = arm_page(
         arm,
         f"{arm.name}: a blended motion",
         summary,
-        controls,
+        _controls(arm),
         through,
         posed,
         meant=TAKE + "Start and goal move, too. A click on a curve sets the clock.",
@@ -131,7 +117,7 @@ def motion_explorer(
         "samples": SAMPLES,
         "jumps": {"least": LEAP, "few": FEW},
         "panels": ["joint values q", "speeds q\N{PRIME}", "accelerations q\N{DOUBLE PRIME}"],
-        "words": {**WORDS, "near": WORDS["near"].replace("}", f"}} {unit}")},
+        "words": {**WORDS, "near": WORDS["near"].replace("}", f"}} {length_unit(extent(arm))[0]}")},
     }
     still = still_picture(
         [arm.name],
@@ -142,6 +128,39 @@ def motion_explorer(
         summary,
     )
     return Explorer(data, still)
+
+
+def _summary(
+    arm: ClosedFormArm, pose: Callable[[Floats], Pose], t: Floats, q: Floats, row: int
+) -> str:
+    """The motion and its greatest speed in one sentence."""
+    speed, j, of = _fastest(arm, pose, t, q)
+    return (
+        f"{arm.name} on a blended motion past a via point that can be moved, {t[-1]:g} s, "
+        f"blend 0.1, branch {flags(arm, row)}: greatest speed{of} {number(speed, 1)} "
+        f"{units(arm)[j]['name']}/s (joint {j + 1})."
+    )
+
+
+def _seconds(duration: float) -> float:
+    """Return a valid duration."""
+    wanted = f"from {SHORTEST:g} to {LONGEST:g} s"
+    seconds = positive(duration, "duration", wanted)
+    if not SHORTEST <= seconds <= LONGEST:
+        raise ValueError(f"duration: wanted {wanted}, got {short(duration)}")
+    return seconds
+
+
+def _controls(arm: ClosedFormArm) -> list[Control]:
+    """The sliders: the via point, the blend and the duration."""
+    unit, size = length_unit(extent(arm))
+    most = float(np.ceil(1.05 * extent(arm) / (50 * mm)) * 50 * mm / size)
+    step = 1 if size == mm else 0.001
+    return [
+        *(control(f"via {letter}", unit, -most, most, step) for letter in "xyz"),
+        control("blend", "", 0, 0.5, 0.01, 3),
+        control("duration", "s", SHORTEST, LONGEST, 0.5, 2),
+    ]
 
 
 def _fastest(

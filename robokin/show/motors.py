@@ -211,6 +211,22 @@ def motor_explorer(motor: Stepper | None = None) -> Explorer:
     long to compute.
     """
     opened = Stepper() if motor is None else instance(motor, Stepper, "motor")
+    kind = opened.rotor, opened.motor
+    lost = opened.run(np.arange(1, PULSES + 1) / FREQUENCY, np.ones(PULSES)).lost
+    summary = (
+        f"A stepper motor, {KINDS[kind]}, {opened.windings} windings, "
+        f"{DRIVES[opened.drive]} drive, {opened.step * 180 / np.pi:.3g}° per step. "
+        f"{PULSES} pulses at {FREQUENCY} per second: "
+        + (f"{lost} steps lost." if lost else "no step lost.")
+    )
+    return Explorer(_page(opened, summary), _picture(opened, summary))
+
+
+# --- Page data ------------------------------------------------------------------------------------
+
+
+def _page(opened: Stepper, summary: str) -> PageMotors:
+    """The page data of the explorer that opens with this motor."""
     own: MotorNumbers = {
         "torque": opened.torque,
         "inertia": opened.inertia,
@@ -226,14 +242,7 @@ def motor_explorer(motor: Stepper | None = None) -> Explorer:
     }
     kind = opened.rotor, opened.motor
     counts = [one["windings"] for one in motors[kind]]
-    lost = opened.run(np.arange(1, PULSES + 1) / FREQUENCY, np.ones(PULSES)).lost
-    summary = (
-        f"A stepper motor, {KINDS[kind]}, {opened.windings} windings, "
-        f"{DRIVES[opened.drive]} drive, {opened.step * 180 / np.pi:.3g}° per step. "
-        f"{PULSES} pulses at {FREQUENCY} per second: "
-        + (f"{lost} steps lost." if lost else "no step lost.")
-    )
-    data: PageMotors = {
+    return {
         "kind": "motor",
         "title": "A stepper motor, seen along its shaft",
         "summary": summary,
@@ -264,19 +273,7 @@ def motor_explorer(motor: Stepper | None = None) -> Explorer:
             "start": 40,
             "ramp": 0,
         },
-        "controls": [
-            {
-                "key": key,
-                "size": size,
-                "name": name,
-                "unit": unit,
-                "low": low,
-                "high": high,
-                "step": step,
-                "decimals": decimals,
-            }
-            for key, size, name, unit, low, high, step, decimals in CONTROLS
-        ],
+        "controls": _controls(),
         "code": "import numpy as np\nfrom robokin.jobs.steppers import Stepper, ramp\n\n"
         f'motor = Stepper("{{rotor}}", "{{motor}}", {{windings}}, "{{drive}}"'
         f"{''.join(f', {text}' for text in changed)})\n"
@@ -284,10 +281,22 @@ def motor_explorer(motor: Stepper | None = None) -> Explorer:
         "run = motor.run(times, np.full({pulses}, {sign}), load={load}, load_inertia={inertia})\n"
         "run.lost",
     }
-    return Explorer(data, _picture(opened, summary))
 
 
-# --- Page data ------------------------------------------------------------------------------------
+def _controls() -> list[MotorControl]:
+    return [
+        {
+            "key": key,
+            "size": size,
+            "name": name,
+            "unit": unit,
+            "low": low,
+            "high": high,
+            "step": step,
+            "decimals": decimals,
+        }
+        for key, size, name, unit, low, high, step, decimals in CONTROLS
+    ]
 
 
 def _motor(rotor: str, feed: str, n: int) -> PageMotor:

@@ -65,7 +65,7 @@ def p2_view() -> Any:
     )
     ax = fig.subplots()
     start, end = direct(FAR)
-    over = swept_by_last(start, end, GRID)
+    over = swept_by_last(start, end, *(np.unique(each) for each in GRID.T)).ravel()
     quad = in_quadrilateral(ARM, start, end, GRID)["AK"]
     ax.plot(*GRID[over & ~quad].T, "s", ms=3.2, color="#E08A4A", label="swept, outside")
     ax.plot(*GRID[over & quad].T, "s", ms=3.2, color="#A9CCE3", label="swept, inside")

@@ -46,22 +46,27 @@ def p1() -> dict[str, Any]:
     return told | {"right": nearest(guesses, 100 * sum(found) / len(found))}
 
 
-def swept_by_last(start: Floats, end: Floats, points: Floats) -> NDArray[np.bool_]:
-    """Which points (n, 2) lever AK passes over: they change from one side of the lever to the
-    other.
+def swept_by_last(start: Floats, end: Floats, x: Floats, y: Floats) -> NDArray[np.bool_]:
+    """Which points (x, y) of a grid lever AK passes over, (len(y), len(x)): in each row everything
+    between where the lever is at one moment and at the next, if it crosses the row.
     """
-    s = np.linspace(0, 1, 301)[:, None]
-    joints = ARM.points(start + s * (end - start))[:, :, None]
-    P, Q = joints[:, 2], joints[:, 3]
-    (dx, dy), (x, y) = np.moveaxis(Q - P, -1, 0), np.moveaxis(points - P, -1, 0)
-    left, share = dx * y - dy * x > 0, dx * x + dy * y  # a lever is 1 m long
-    beside = (share >= 0) & (share <= 1)
-    over: NDArray[np.bool_] = ((left[1:] != left[:-1]) & beside[1:] & beside[:-1]).any(axis=0)
+    s = np.linspace(0, 1, 2401)[:, None]
+    (ax, ay), (kx, ky) = np.moveaxis(ARM.points(start + s * (end - start))[:, 2:], 0, -1)
+    with np.errstate(divide="ignore", invalid="ignore"):
+        share = (y[:, None] - ay) / (ky - ay)
+    crosses, above = (share >= 0) & (share <= 1), y[:, None] > ay
+    at = ax + np.clip(share, 0, 1) * (kx - ax)  # the end of the lever that is nearest to the row
+    row, moment = np.nonzero(crosses[:, 1:] | crosses[:, :-1] | (above[:, 1:] != above[:, :-1]))
+    low, high = np.sort([at[row, moment], at[row, moment + 1]], axis=0)
+    ends = np.zeros((len(y), len(x) + 1), dtype=int)
+    np.add.at(ends, (row, np.searchsorted(x, low)), 1)
+    np.add.at(ends, (row, np.searchsorted(x, high, side="right")), -1)
+    over: NDArray[np.bool_] = ends.cumsum(axis=1)[:, :-1] > 0
     return over
 
 
 FAR = np.array([150, 120, 120]) * deg
-FINE_STEP = 0.005  # m: the grid on which areas are counted; fine enough for two digits
+FINE_STEP = 0.002  # m: the grid on which areas are counted
 
 
 @cache
@@ -69,10 +74,9 @@ def p2() -> dict[str, Any]:
     start, end = direct(FAR)
     places = ARM.points(along(direct(FAR), np.linspace(0, 1, 201)))[:, 2:].reshape(-1, 2)
     low, high = places.min(axis=0), places.max(axis=0)
-    fine = np.stack(np.meshgrid(*map(np.arange, low, high, (FINE_STEP,) * 2)), axis=-1)
-    fine = fine.reshape(-1, 2)
-    over = swept_by_last(start, end, fine)
-    quad = in_quadrilateral(ARM, start, end, fine)["AK"]
+    x, y = map(np.arange, low + FINE_STEP / 2, high, (FINE_STEP,) * 2)
+    over = swept_by_last(start, end, x, y)
+    quad = in_quadrilateral(ARM, start, end, np.stack(np.meshgrid(x, y), axis=-1))["AK"]
     missed, area = over & ~quad, FINE_STEP**2
     share = float(100 * missed.sum() / over.sum())
     guesses = {"nothing": 0, "narrow rim": 5, "a third": 33, "most": 75}

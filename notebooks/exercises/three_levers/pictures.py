@@ -144,11 +144,13 @@ def p6_view() -> Any:
 
 
 def p7_view() -> Any:
-    target, before = np.array([1.8, 0.6]), np.array([100, 110, 120]) * deg
+    target, before = np.array([1.8, 0.5]), np.array([100, 110, 120]) * deg
     exact, S = ARM.least(target, before)
+    above = [(ARM.sweep(target, before, step * deg)[1] - S) / deg for step in (of.COARSE, of.FINE)]
     fig, axes = panels(
         "S near its least value is a V. The rows of a sweep with a step of 1 degree and with a "
-        "tenth of it lie on both sides of the tip; the finer ones come about ten times nearer.",
+        "tenth of it lie on both sides of the tip. The best ones are "
+        f"{above[0]:.2f} and {above[1]:.3f} degrees above it.",
         count=2,
     )
     for ax, step in zip(axes, (of.COARSE, of.FINE), strict=True):
