@@ -6,10 +6,22 @@ import re
 import numpy as np
 import pytest
 from scipy.spatial.transform import Rotation
+from test_true_statements_b import run as run_cells
 from test_true_statements_c import flat, numbers, shown
 from test_true_statements_g import joints_of, place_of
 
-from robokin import IRB140, ITMO6R, SCARA, Quaternion, ScaraPose, Transform, blend, deg, mm
+from robokin import (
+    IRB140,
+    ITMO6R,
+    SCARA,
+    Quaternion,
+    ScaraPose,
+    Transform,
+    blend,
+    deg,
+    mm,
+    three_lever,
+)
 from robokin.course import book
 
 # --- Lab 06 ---------------------------------------------------------------------------------------
@@ -49,7 +61,7 @@ def test_greatest_speed_of_the_sinking_arms_joint_2_is_as_shown():
         return np.where(inside, q2, np.nan)
 
     speeds = [
-        np.nanmax(abs(np.gradient(lean(rho), times))[2:-2]) for rho in (0.15, 0.3, 0.5, 0.7, 1)
+        np.nanmax(abs(np.gradient(lean(rho), times))[2:-2]) for rho in (0, 0.15, 0.3, 0.5, 0.7, 1)
     ]
     assert count == 421 and told == pytest.approx(max(speeds) / deg, abs=0.06)
 
@@ -135,3 +147,30 @@ def test_nan_is_neither_less_nor_greater_but_unequal():
     assert not math.nan < 1 and not math.nan > 1 and math.nan != 1
     for path in book.OURS.glob("*/*.md"):
         assert "comparison with NaN is always" not in path.read_text(encoding="utf-8"), path.name
+
+
+# --- Lab 09 ---------------------------------------------------------------------------------------
+
+
+def test_sweeps_end_as_far_above_the_least_sum_as_the_picture_says():
+    """The family of postures from two circles: gamma's end is at K - (cos, sin) of the sum."""
+    alt = book.find("three_levers.p7", "predictions").view().alt
+    coarse, fine = numbers(r"best ones are (\S+) and (\S+) degrees above it", alt)
+    K, before = np.array([1.8, 0.5]), np.array([100, 110, 120]) * deg
+    arm = three_lever((1.0, 1.0, 1.0))
+
+    def least(step):
+        rows = arm.table(K, step)
+        return abs(rows - before).sum(axis=-1).min() / deg
+
+    exact = least(0.0005 * deg)
+    assert coarse == pytest.approx(least(1 * deg) - exact, abs=0.006)
+    assert fine == pytest.approx(least(0.1 * deg) - exact, abs=0.0012)
+    assert coarse > 10 * fine
+
+
+def test_the_note_on_the_waiting_arm_has_the_time_at_which_it_waits():
+    """The arm that waits: a jump of its speed when it starts."""
+    made = run_cells("10", "setup", "deeper-while-code", "deeper-while-data")
+    when = made["when"]
+    assert np.isin(when, made["seconds"]).all(), "the kinks are among the samples"
