@@ -297,7 +297,7 @@ def test_folder_of_a_teachers_labs_is_found(place):
     assert "Right." in repr(predict("two_links.p1", "a"))
     assert "not 0.5 m" in repr(predict("two_links.p1", "b"))
     assert "begun    two_links.2, two_links.10: tell how far" in progress()
-    with pytest.raises(ValueError, match="no individual numbers"):
+    with pytest.raises(ValueError, match="no numbers that depend on the student"):
         variant("two_links", "Ada")
 
 

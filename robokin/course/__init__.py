@@ -1,4 +1,4 @@
-"""The course: exercises that name the mistake, predictions, hints, individual numbers, a report.
+"""The course: exercises that name the mistake, predictions, hints, a student's own numbers, a report.
 
     from robokin.course import check, hint, predict, progress, report, solution, variant
 
@@ -44,7 +44,7 @@ def check(name: str | Exercise, answer: Any = None, who: Any = None) -> Verdict:
     itself in a cell.
 
     name  an id, or your own exercise (see `exercise`)
-    who   the student, if the exercise has individual numbers (see `variant`)
+    who   the student, if the exercise gives each student their own numbers (see `variant`)
 
     It never raises: the verdict reports an answer that raises, prints, changes its input or never
     ends.

@@ -101,7 +101,7 @@ class Lab:
 
     @property
     def given(self) -> Callable[[Any], Any] | None:
-        """The function student -> individual numbers; None if no exercise has such numbers."""
+        """The function student -> numbers of the student; None if no exercise has such numbers."""
         found = (getattr(each, "given", None) for each in self.exercises.values())
         return next(filter(None, found), None)
 

@@ -78,9 +78,9 @@ class Judged:
 
 
 def judge_notebook(handed: HandedIn, who: str | None, limits: Limits = LIMITS) -> Judged:
-    """Run a notebook and judge its answers. An exercise with individual numbers uses those of the
-    student `who`; with None, those of the name in the notebook. Several threads may judge at the
-    same time. OSError: a kernel cannot be started.
+    """Run a notebook and judge its answers. An exercise that gives each student their own
+    numbers uses those of the student `who`; with None, those of the name in the notebook. Several
+    threads may judge at the same time. OSError: a kernel cannot be started.
     """
     notebook = nbformat.from_dict(handed.notebook)
     names = _ids(handed.lab, "exercises")

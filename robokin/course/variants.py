@@ -1,4 +1,4 @@
-"""A student's individual numbers: the same on every machine and for all spellings of the name."""
+"""A student's own numbers: the same on every machine and for all spellings of the name."""
 
 import hashlib
 import random
@@ -54,7 +54,7 @@ def variant(lab: str, who: Any) -> Numbers:
     """
     given = _lab(lab).given
     if given is None:
-        raise ValueError(f"lab: {lab} has no numbers of your own")
+        raise ValueError(f"lab: {lab} has no numbers that depend on the student")
     made: Numbers = given(who)
     return made
 

@@ -97,7 +97,7 @@ class Thing(ABC):
     @abstractmethod
     def seen(self, axis: float) -> Floats:
         """Points (k, 3) of the whole motion that the camera must see; NaN is ignored. `axis` is the
-        length (m) of the axes of frames. (`seen` in a script gives the points of one moment; only
+        length (m) of the axes of frames. (`seen` in a script returns the points at one moment; only
         scenes that grow ask for them.)
         """
 
