@@ -1,4 +1,5 @@
-"""The course: exercises that name the mistake, predictions, hints, a student's own numbers, a report.
+"""The course: exercises that name the mistake, predictions, hints, numbers for each student, a
+report.
 
     from robokin.course import check, hint, predict, progress, report, solution, variant
 
