@@ -123,7 +123,8 @@ def _foldable(app: Any, doctree: nodes.document, docname: str) -> None:
         hidden = isinstance(code.parent, HideCodeCellNode)
         if code.get("nb_element") == "cell_code_source" and not hidden:
             opened = nodes.raw("", OPENED, format="html")
-            code.replace_self([opened, code, nodes.raw("", "</details>", format="html")])
+            closed = nodes.raw("", "</details>", format="html")
+            code.parent.replace(code, [opened, code, closed])
 
 
 OPENED = '<details class="rk-code" open><summary>code</summary>'

@@ -6,11 +6,12 @@
   // browser keeps the text in place that is being read (scroll anchoring).
   const narrow = matchMedia("screen and (max-width: 699.98px)");
   const left = new WeakMap(); // cell -> whether it was open
-  const parsed = new MutationObserver(records => {
+  const fold = records => {
     for (const node of records.flatMap(record => [...record.addedNodes]))
       if (node instanceof HTMLDetailsElement && node.matches(".rk-code"))
         node.open = !narrow.matches;
-  });
+  };
+  const parsed = new MutationObserver(fold);
   parsed.observe(document, {childList: true, subtree: true});
   narrow.addEventListener("change", () => {
     for (const cell of document.querySelectorAll("details.rk-code")) {
@@ -32,6 +33,7 @@
     }
   });
   document.addEventListener("DOMContentLoaded", () => {
+    fold(parsed.takeRecords());
     parsed.disconnect();
     const boxes = "pre, table, .table-wrapper, math[display=block], p, ul, ol";
     for (const box of document.querySelectorAll(`:is(main, article) :is(${boxes})`))
