@@ -9,7 +9,6 @@ from pathlib import PurePosixPath
 from typing import Any
 
 from docutils import nodes
-from myst_nb.sphinx_ import HideCodeCellNode
 from sphinx.util import logging
 
 import robokin.course
@@ -120,7 +119,7 @@ def _to_the_section(app: Any, doctree: nodes.document, docname: str) -> None:
 
 def _foldable(app: Any, doctree: nodes.document, docname: str) -> None:
     for code in list(doctree.findall(nodes.container)):
-        hidden = isinstance(code.parent, HideCodeCellNode)
+        hidden = not isinstance(code.parent, nodes.container)  # in a node of myst-nb for `details`
         if code.get("nb_element") == "cell_code_source" and not hidden:
             opened = nodes.raw("", OPENED, format="html")
             closed = nodes.raw("", "</details>", format="html")

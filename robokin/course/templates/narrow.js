@@ -5,7 +5,9 @@
   // again, and a narrow screen then finds it as its reader left it. When a phone is turned, the
   // browser keeps the text in place that is being read (scroll anchoring).
   const narrow = matchMedia("screen and (max-width: 699.98px)");
+  /** @type {WeakMap<HTMLDetailsElement, boolean>} */
   const left = new WeakMap(); // cell -> whether it was open
+  /** @param {MutationRecord[]} records */
   const fold = records => {
     for (const node of records.flatMap(record => [...record.addedNodes]))
       if (node instanceof HTMLDetailsElement && node.matches(".rk-code"))
@@ -14,7 +16,9 @@
   const parsed = new MutationObserver(fold);
   parsed.observe(document, {childList: true, subtree: true});
   narrow.addEventListener("change", () => {
-    for (const cell of document.querySelectorAll("details.rk-code")) {
+    /** @type {NodeListOf<HTMLDetailsElement>} */
+    const cells = document.querySelectorAll("details.rk-code");
+    for (const cell of cells) {
       if (!narrow.matches) left.set(cell, cell.open);
       cell.open = !narrow.matches || (left.get(cell) ?? false);
     }
@@ -23,13 +27,14 @@
   // The keyboard reaches a box that scrolls; paper needs the width of a formula.
   const sizes = new ResizeObserver(entries => {
     for (const {target: box} of entries) {
-      if (box.scrollWidth > box.clientWidth) box.setAttribute("tabindex", "0");
+      const {fontSize, overflowX} = getComputedStyle(box);
+      if (overflowX === "auto" && box.scrollWidth > box.clientWidth)
+        box.setAttribute("tabindex", "0");
       else box.removeAttribute("tabindex");
-      if (box.matches("math") && box.firstElementChild) {
-        const [first, last] = [box.firstElementChild, box.lastElementChild];
-        const wide = last.getBoundingClientRect().right - first.getBoundingClientRect().left;
-        box.style.setProperty("--ems", `${wide / parseFloat(getComputedStyle(box).fontSize)}`);
-      }
+      if (!(box instanceof MathMLElement) || !box.firstElementChild) continue;
+      const right = box.lastElementChild?.getBoundingClientRect().right ?? 0,
+        width = right - box.firstElementChild.getBoundingClientRect().left;
+      box.style.setProperty("--ems", `${width / parseFloat(fontSize)}`);
     }
   });
   document.addEventListener("DOMContentLoaded", () => {
