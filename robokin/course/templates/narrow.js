@@ -2,8 +2,7 @@
 (() => {
   // Narrow screens fold code. We close a cell while the page is being parsed, before it is painted,
   // so nothing flashes or moves; without scripts it stays open. Paper and wide screens open it
-  // again, and a narrow screen then finds it as its reader left it. When a phone is turned, the
-  // browser keeps the text in place that is being read (scroll anchoring).
+  // again, and a narrow screen then finds it as its reader left it.
   const narrow = matchMedia("screen and (max-width: 699.98px)");
   /** @type {WeakMap<HTMLDetailsElement, boolean>} */
   const left = new WeakMap(); // cell -> whether it was open
