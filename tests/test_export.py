@@ -62,8 +62,9 @@ def test_page_fetches_nothing_and_has_every_formula(path, exported):
     fetches = Fetches(text)
     assert fetches.found == []
     assert "@import" not in text and "url(http" not in text
-    assert fetches.math == len(list(formulas(path)))
     cells = json.loads(path.read_text(encoding="utf-8"))["cells"]
+    written = sum("text/latex" in o.get("data", ()) for c in cells for o in c.get("outputs", ()))
+    assert fetches.math == len(list(formulas(path))) + written
     folded = sum("hide-input" in cell["metadata"].get("tags", ()) for cell in cells)
     assert text.count('<details class="rk-folded">') == folded
 

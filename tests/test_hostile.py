@@ -159,15 +159,18 @@ ALLOWED = """() => {
   const odd = [], known = new Set(TAGS);
   for (const node of document.querySelectorAll(".rk-notebook *")) {
     if (node.closest(".robokin-player, .rk-folded, .highlight") || node.closest("math")) continue;
-    const ours = /^jp-|^rk-notebook$|^cm-editor/.test(node.className);
+    const ours = /^jp-|^rk-notebook$|^cm-editor/.test(node.className)
+      || node.matches(".jp-CodeCell > details.rk-code");
     const style = node.matches(".robokin-player ~ *");  // our own style and script
     if (style) continue;
     if (!known.has(node.localName)) odd.push(node.localName);
     for (const {name, value} of node.attributes) {
-      const fine = ours ? ["class", "tabindex", "data-mime-type", "data-type"] : ATTRIBUTES;
+      const fine = ours ? ["class", "open", "tabindex", "data-mime-type", "data-type"]
+        : ATTRIBUTES;
       const colour = name === "style" && /^(background-)?color: rgb\\([\\d, ]+\\)$/.test(value);
       const ansi = name === "class" && /^(ansi-[a-z-]+ ?)+$/.test(value);
-      if (!fine.includes(name) && !colour && !ansi) odd.push(`${node.localName} ${name}=${value}`);
+      const scrolls = name === "tabindex" && value === "0";  // set by our script
+      if (!fine.includes(name) && !colour && !ansi && !scrolls) odd.push(`${node.localName} ${name}=${value}`);
       if (name === "src" && !value.startsWith("data:image/")) odd.push(value.slice(0, 80));
       if (name === "href" && !/^(https?:|mailto:|#|(?![a-z]+:)[^\\/\\\\])/.test(value))
         odd.push(value.slice(0, 80));

@@ -23,7 +23,8 @@ from robokin.show.things.thing import PageReading, PageWay
 PACKAGE = ROOT / "robokin"
 FOLDER = PACKAGE / "show" / "js"
 SITE = ROOT / "robokin" / "course" / "site" / "static"
-SCRIPTS = sorted([*FOLDER.glob("*.js"), *SITE.glob("*.js")])
+NARROW = ROOT / "robokin" / "course" / "templates" / "narrow.js"
+SCRIPTS = sorted([*FOLDER.glob("*.js"), *SITE.glob("*.js"), NARROW])
 
 
 def not_installed(error):
@@ -42,7 +43,7 @@ def run(name, *arguments):
 
 
 def test_prettier_finds_no_changes():
-    said = run("prettier", "--check", FOLDER, SITE / "site.js")
+    said = run("prettier", "--check", FOLDER, SITE / "site.js", NARROW)
     assert not said, (
         f"{said}\nRun: .venv/bin/python tests/javascript.py prettier --write robokin/show/js"
     )

@@ -44,6 +44,7 @@ PIECE, ROOM = 50_000, 150_000
 MOST = 200  # maximum number of robokin outputs in a page
 OPENERS = ("\\\\[", "\\\\(", "\\begin{")  # the parser searches for the end of each of these
 TEXTS = ("text/latex", "text/plain")
+LATEX = re.compile(r"\$\$([^$]+)\$\$|\$((?:[^$\\]|\\.)+)\$", re.S)  # $$ ... $$, $ ... $
 IMAGES = ("image/svg+xml", "image/png", "image/jpeg", "image/gif", "image/webp")
 FIRST = ("text/html", "text/markdown", "image/svg+xml", "text/latex", *IMAGES[1:], "text/plain")
 
@@ -60,6 +61,14 @@ def mathml(tex: str, block: bool = False) -> str:
     if odd := odd_in_math(made):
         raise ValueError(f"formula {short(tex)}: {', '.join(odd)} is not allowed in a page")
     return made
+
+
+def named(formula: str) -> str:
+    """MathML with a name if it is one letter, which alone in the head of a column would have none:
+    axe and some screen readers do not look for text in MathML.
+    """
+    letter = re.fullmatch("<math><mi>(\\w)</mi></math>", formula)
+    return f'<math aria-label="{letter[1]}"><mi>{letter[1]}</mi></math>' if letter else formula
 
 
 class View:
@@ -175,7 +184,7 @@ class View:
                 made = self._markdown(text, "an output")
                 return _shown("RenderedHTMLCommon jp-RenderedMarkdown", mime, made)
             if mime == "text/latex":
-                return _shown("RenderedLatex", mime, Markup.escape(visible(shortened(text))))
+                return _shown("RenderedLatex", mime, self._latex(text))
             if mime == "text/plain":
                 return _shown("RenderedText", mime, _coloured(text))
             try:
@@ -185,6 +194,23 @@ class View:
                 continue
         names = ", ".join(shortened(visible(str(name)), 80) for name in list(data)[:5])
         return _shown("RenderedText", "text/plain", f"An output is left out here: {names}.")
+
+    def _latex(self, text: str) -> Markup:
+        """Convert words with formulas in dollars, as SymPy writes them, or a formula alone."""
+        text = visible(shortened(text))
+        if not self._affords(text) or text.count("$") > 100:
+            return _as_typed(text)
+        if "$" not in text:
+            text = "$$" + text.strip().removeprefix("\\[").removesuffix("\\]") + "$$"
+        renderer = Renderer(self, "an output")
+        made, end = Markup(), 0
+        for found in LATEX.finditer(text):
+            made += text[end : found.start()]
+            tex = found[1] or found[2]
+            block = bool(found[1]) or tex.lstrip().startswith("\\displaystyle")  # SymPy's sign
+            made += Markup(renderer.filled(renderer._formula(tex, "$$" if block else "$")))
+            end = found.end()
+        return made + text[end:]
 
     def _html(self, text: str) -> Markup:
         made = again(text, self.nonce, self.choices) if self._ours <= MOST else None
@@ -225,7 +251,10 @@ class Renderer(IPythonRenderer):
         return f'<h{level} id="{html.escape(words.replace(" ", "-"))}">{text}</h{level}>\n'
 
     def table_cell(self, text: str, align: str | None = None, head: bool = False) -> str:
-        tag = "th" if head else "td"
+        tag = "th" if head and text else "td"  # an empty corner is no header of anything
+        if head and (formula := re.fullmatch(f"{self.mark}(\\d+)x", text)):
+            typed, made = self.kept[int(formula[1])]
+            self.kept[int(formula[1])] = typed, named(made)
         style = f' style="text-align: {align}"' if align else ""
         return f"<{tag}{style}>{text}</{tag}>\n"
 

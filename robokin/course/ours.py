@@ -24,13 +24,14 @@ from typing import (
 
 from markupsafe import Markup
 
+from ..show.markup import STILL as IN_JUPYTER
 from ..show.markup import figure_image, inert, output, still_image
 from ..show.motors import PageMotors
 from ..show.page import Page, PageCurves, PageExplorer
 from .book import find
 from .exercises import Verdict
 from .harmless import png
-from .predictions import Asked, shown
+from .predictions import ASLEEP, Asked, shown
 from .questions import Prediction
 from .texts import all_visible, visible
 
@@ -59,6 +60,13 @@ VERDICT = re.compile(
 LINE = re.compile(r'<div style="padding-left:([02])em">([^<>]*)</div>')
 
 
+def quiet(text: str) -> str:
+    """HTML or JSON without the sentences that tell a reader of JupyterLab how to start a view: a
+    page of ours starts it by itself.
+    """
+    return text.replace(IN_JUPYTER, "").replace(ASLEEP, "")
+
+
 def again(text: str, nonce: str, choices: Mapping[str, str] | None = None) -> Markup | None:
     """Return an output of robokin as this version writes it, or None if it is not one.
 
@@ -79,7 +87,7 @@ def again(text: str, nonce: str, choices: Mapping[str, str] | None = None) -> Ma
             return LEFT_OUT
         data = json.loads(call[2], parse_constant=_refused, object_hook=_ordinary)
         if call[1] == ASK:
-            return Markup(_question(data, nonce, choices))
+            return Markup(quiet(_question(data, nonce, choices)))
         if not fits(data, KINDS.get(call[1], NoneType)) or _kind(data, call[1]) != call[1]:
             return LEFT_OUT
         found = STILL.search(text)
@@ -90,7 +98,7 @@ def again(text: str, nonce: str, choices: Mapping[str, str] | None = None) -> Ma
         return LEFT_OUT
     # a hash of the data, so that different outputs never share an id in the page
     name = hashlib.sha256(data.encode()).hexdigest()[:12]
-    return Markup(output(call[1], name, data, still, nonce))
+    return Markup(output(call[1], name, data, quiet(still), nonce))
 
 
 def fits(value: Any, kind: Any) -> bool:

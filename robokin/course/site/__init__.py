@@ -72,6 +72,7 @@ def _gather(labs: Path, notebooks: list[Path], source: Path) -> None:
     not mention them.
     """
     from ...show import target_explorer
+    from ..ours import quiet
 
     shutil.copytree(HERE, source, ignore=shutil.ignore_patterns("__*"))
     for notebook in notebooks:
@@ -82,7 +83,7 @@ def _gather(labs: Path, notebooks: list[Path], source: Path) -> None:
     if not any(path.name == TEACHING for path in notebooks):
         first = (HERE / "index.md").read_text(encoding="utf-8")
         _write(source / "index.md", "".join(re.split(rf".*{NOTES}.*\n", first)))
-    _write(source / "arm.html", target_explorer(robokin.IRB140).html)
+    _write(source / "arm.html", quiet(target_explorer(robokin.IRB140).html))
     names = _modules()
     for name in names:
         _write(source / "api" / f"{name}.rst", f"{name}\n{'=' * 80}\n\n.. automodule:: {name}\n")

@@ -11,7 +11,9 @@ from typing import Any
 from docutils import nodes
 from sphinx.util import logging
 
-from robokin.course.export import mathml
+import robokin.course
+from robokin.course.export import mathml, named
+from robokin.course.ours import quiet
 from robokin.show.palette import PAGE
 
 project = html_title = "robokin labs"
@@ -40,8 +42,9 @@ html_theme_options = {
     "light_css_variables": dict.fromkeys(LINKS, PAGE["accent"][0]),
     "dark_css_variables": dict.fromkeys(LINKS, PAGE["accent"][1]),
 }
-html_static_path = ["static"]
-html_css_files = ["site.css"]
+SHARED = PurePosixPath(robokin.course.__file__).parent / "templates"  # with exported pages
+html_static_path = ["static", f"{SHARED}/narrow.css", f"{SHARED}/narrow.js"]
+html_css_files = ["narrow.css", "site.css"]
 html_js_files = ["site.js"]
 html_favicon = "static/arm.svg"
 html_copy_source = html_show_sourcelink = html_show_copyright = False
@@ -53,6 +56,7 @@ def setup(app: Any) -> dict[str, bool]:
     app.connect("source-read", _own_name)
     app.connect("doctree-read", _numbered)
     app.connect("doctree-resolved", _to_the_section)
+    app.connect("doctree-resolved", _foldable)
     app.connect("autodoc-skip-member", _not_ours)
     app.connect("autodoc-process-docstring", _as_it_is)
     return {"parallel_read_safe": True, "parallel_write_safe": True}
@@ -71,7 +75,9 @@ def _block(translator: Any, node: nodes.Element) -> None:
 
 def _formula(translator: Any, node: nodes.Element, block: bool) -> None:
     try:
-        translator.body.append(mathml(node.astext(), block))
+        made = mathml(node.astext(), block)
+        in_head = isinstance(node.parent.parent, nodes.entry) and len(node.parent) == 1
+        translator.body.append(named(made) if in_head else made)
     except ValueError as error:
         logging.getLogger(__name__).warning(str(error), location=node)
     raise nodes.SkipNode
@@ -81,7 +87,10 @@ def _formula(translator: Any, node: nodes.Element, block: bool) -> None:
 
 
 def _own_name(app: Any, docname: str, source: list[str]) -> None:
-    """A companion refers to itself as #. Links to our source become links to the reference."""
+    """A companion refers to itself as #. Links to our source become links to the reference. No
+    sentence says how to start a view in JupyterLab.
+    """
+    source[0] = quiet(source[0])
     source[0] = source[0].replace("](#)", f"]({PurePosixPath(docname).name}.ipynb)")
     up = "../" * docname.count("/")
     source[0] = re.sub(
@@ -103,6 +112,21 @@ def _to_the_section(app: Any, doctree: nodes.document, docname: str) -> None:
         number = re.search(r"§(\d+)$", link.astext())
         if number and re.search(r"\.html$|^$", link.get("refuri", "no")):
             link["refuri"] += f"#section-{number[1]}"
+
+
+# --- Code that a narrow screen folds (narrow.js), as in exported pages ----------------------------
+
+
+def _foldable(app: Any, doctree: nodes.document, docname: str) -> None:
+    for code in list(doctree.findall(nodes.container)):
+        hidden = not isinstance(code.parent, nodes.container)  # in a node of myst-nb for `details`
+        if code.get("nb_element") == "cell_code_source" and not hidden:
+            opened = nodes.raw("", OPENED, format="html")
+            closed = nodes.raw("", "</details>", format="html")
+            code.parent.replace(code, [opened, code, closed])
+
+
+OPENED = '<details class="rk-code" open><summary>code</summary>'
 
 
 # --- Docstrings -----------------------------------------------------------------------------------
