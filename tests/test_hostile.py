@@ -170,7 +170,8 @@ ALLOWED = """() => {
       const colour = name === "style" && /^(background-)?color: rgb\\([\\d, ]+\\)$/.test(value);
       const ansi = name === "class" && /^(ansi-[a-z-]+ ?)+$/.test(value);
       const scrolls = name === "tabindex" && value === "0";  // set by our script
-      if (!fine.includes(name) && !colour && !ansi && !scrolls) odd.push(`${node.localName} ${name}=${value}`);
+      if (!fine.includes(name) && !colour && !ansi && !scrolls)
+        odd.push(`${node.localName} ${name}=${value}`);
       if (name === "src" && !value.startsWith("data:image/")) odd.push(value.slice(0, 80));
       if (name === "href" && !/^(https?:|mailto:|#|(?![a-z]+:)[^\\/\\\\])/.test(value))
         odd.push(value.slice(0, 80));
