@@ -80,7 +80,7 @@ def whole(value: Any, name: str, low: int, high: int | None = None) -> int:
 
 
 def bools(value: Any, name: str) -> Bools:
-    """Return `value` as a boolean array. ValueError: it holds anything other than True or False."""
+    """Return `value` as a boolean array. ValueError: a value other than True or False."""
     try:
         array = np.asarray(value)
     except Exception:  # an object may claim to be an array and raise any error

@@ -272,7 +272,7 @@ def test_test_may_refuse_with_an_assertion():
     assert check("spherical_wrist.2", _by_assertion(lambda h: (h, from_a_chain(h)))).holds
 
 
-def test_test_without_matrices_of_a_chain_is_named():
+def test_missing_test_of_a_chain_of_matrices_is_reported():
     verdict = check("spherical_wrist.2", _by_assertion(lambda h: (h,)))
     assert verdict.mistake == "accepts: a better root alone"
     assert any("matrices of a chain" in line for line in verdict.says)

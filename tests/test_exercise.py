@@ -227,8 +227,8 @@ def test_changed_inputs_of_any_type_are_reported():
     [
         ("x = 1\n", cases, "solution, line 1: wanted a program that defines a function"),
         ("def f(x):\n    return (x\n", cases, "solution, line 2: not Python: '(' was never closed"),
-        (3, cases, "solution: wanted a function or its text, got 3"),
-        (len, cases, "solution: wanted a function or its text"),
+        (3, cases, "solution: wanted a function or its source code, got 3"),
+        (len, cases, "solution: wanted a function or its source code"),
         ("def f(x):\n    return x", None, "exercise f: wanted a function cases(rng)"),
         ("def f(x):\n    return x", [(1,)], "exercise f: wanted a function cases(rng)"),
         (

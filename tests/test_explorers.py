@@ -388,7 +388,8 @@ def shows_every_branch(shown, exact=True):
 
 
 def _values(shown, target):
-    """The numbers expected in the boxes of a target, in mm and degrees, without the explorer."""
+    """The numbers expected in the boxes of a target, in mm and degrees, computed
+    without the explorer."""
     size = shown.data["unit"]["size"]
     if isinstance(target, ScaraPose):
         turned = np.array([target.angle]) / deg

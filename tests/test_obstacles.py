@@ -198,7 +198,7 @@ def test_clearance_is_a_tight_bound(L):
     rng, arm = np.random.default_rng(6), three_lever(L)
     for _ in range(60):
         path, H = rng.uniform(0, np.pi, (4, 3)), L * rng.uniform(-3, 3, 2)
-        if rng.random() < 0.5:  # some joints rest, as at the kinks of the least movement
+        if rng.random() < 0.5:  # some joints stay still, as at a kink of S
             path[1:] = np.where(rng.random((3, 3)) < 0.6, path[0], path[1:])
         sampled = seen(dense(path), H, L)
         bound = clearance(arm, path, H)

@@ -1029,7 +1029,9 @@ def test_keyboard_alone_can_play_pause_and_scrub(page, blended, tmp_path):
     assert page.get_by_text("20.00 s").count() == 1
 
 
-def test_controls_keep_their_keys_from_jupyterlab_and_have_names(page, blended, tmp_path):
+def test_key_presses_on_controls_do_not_reach_jupyterlab_and_controls_have_names(
+    page, blended, tmp_path
+):
     show(page, blended, tmp_path)
     controls = page.locator("input, select, button, canvas[tabindex]")
     assert controls.count() >= 5

@@ -260,11 +260,11 @@ def test_pulses_follow_a_motor_that_reverses_repeatedly():
 def test_a_line_that_leaves_the_workspace_is_refused():
     with pytest.raises(ValueError, match=r"too near to joint 2"):
         straight(ARM, (1.2, 0, 0.1), (-1.2, 0.1, 0.1), PER_DEGREE)
-    with pytest.raises(ValueError, match=r"100% of it the point is under the floor"):
+    with pytest.raises(ValueError, match=r"100% of its length the point is under the floor"):
         straight(ARM, (1.2, 0, 0.5), (1.2, 0.1, -0.1), PER_DEGREE)
     with pytest.raises(ValueError, match=r"beyond the stretched arm"):
         straight(ARM, (1.2, 0, 0.5), (3, 0.1, 0.5), PER_DEGREE)
-    with pytest.raises(ValueError, match=r" 0% of it the point is under the floor"):
+    with pytest.raises(ValueError, match=r" 0% of its length the point is under the floor"):
         straight(ARM, (1.2, 0, -1e-6), (1.2, 0.1, 0.5), PER_DEGREE)
 
 

@@ -488,8 +488,8 @@ def test_exactly_one_option_is_true_of_the_200_postures():
     rotations = ITMO6R.frames(q).as_matrix()[..., :3, :3]
     h33 = (rotations[:, 3].swapaxes(1, 2) @ rotations[:, 6])[:, 2, 2]
     assert 0 < (h33 > 1).sum() < 200  # some postures give the root a negative argument
-    # The lab's chain and the package's round in different orders, so the percentages can agree only
-    # roughly.
+    # The lab's chain and that of the package round in a different order, so the percentages
+    # agree only roughly.
     lost = number(r"NaN, in (\d+)% of the postures", choices[right].reason)
     assert lost == pytest.approx(100 * (h33 > 1).mean(), abs=8)
 

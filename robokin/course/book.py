@@ -159,7 +159,9 @@ def own(solution: Any, cases: Any, mistakes: str) -> Exercise:
                 raise ValueError("solution: wanted a function defined with def, got a lambda")
             solution = inspect.getsource(solution)
         except (AttributeError, OSError, TypeError):
-            raise ValueError(f"solution: wanted a function or its text, got {solution!r}") from None
+            raise ValueError(
+                f"solution: wanted a function or its source code, got {solution!r}"
+            ) from None
     source = textwrap.dedent(solution).strip()
     title = edits.function_name("solution", 1, source)
     parts = {

@@ -291,7 +291,7 @@ class Steps:
                 names = self._after(count - 1, case)
                 exec(_step(self.solution[slice(*self.spans[count - 1])]), names)
             self.names[key] = {k: v for k, v in names.items() if v is not self.before.get(k, ...)}
-        memo: dict[int, Any] = {}  # two names of one array still share it
+        memo: dict[int, Any] = {}  # two names for the same array still refer to one array
         mine = self.names[key].items()
         return self.before | {
             k: copy.deepcopy(v, memo) if isinstance(v, CHANGEABLE) else v for k, v in mine

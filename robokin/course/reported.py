@@ -34,7 +34,7 @@ def report_data(text: str) -> dict[str, Any] | None:
     if start < 0:
         return None
     if not text.rstrip().endswith("</html>"):
-        raise ValueError("a report that cannot be read: it is cut off")
+        raise ValueError("a report that cannot be read: it is truncated")
     try:
         data, _ = json.JSONDecoder().raw_decode(text, start + len(DATA))
         return validated(data)

@@ -31,7 +31,7 @@ for _library in ("OMP", "OPENBLAS", "MKL"):  # before NumPy starts its threads
 
 import numpy as np
 
-import robokin as rk  # the edition in PYTHONPATH
+import robokin as rk  # the version on PYTHONPATH
 
 ROOT = Path(__file__).resolve().parent.parent.parent
 OLD = "2461cda"

@@ -222,8 +222,8 @@ def straight(
     for i in (*gaps[:1], 0, -1):
         for reason in out_of_reach(arm, points[i]):
             raise ValueError(
-                f"start and goal: wanted a line inside the workspace, but at {s[i]:.0%} of it "
-                f"{reason}"
+                f"start and goal: wanted a line inside the workspace, but at {s[i]:.0%} of its "
+                f"length {reason}"
             )
     due = _counted(_pulses(q, per_degree), "per_degree")
     due[[0, -1]] = np.rint(due[[0, -1]])  # motors stop at whole pulses

@@ -88,7 +88,13 @@ function start(root, data) {
 /** @param {Page} data */
 function furniture(data) {
   const {slider, switch: menu, arms} = data,
-    table = element("div", {class: "rk-table"});
+    // it scrolls on a narrow screen, so the keyboard must reach it
+    table = element("div", {
+      class: "rk-table",
+      tabindex: 0,
+      role: "group",
+      "aria-label": "greatest values",
+    });
   const parts = {
     scene: sceneCanvas(data.scene, data.alt),
     curves: element("canvas", {
