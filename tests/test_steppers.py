@@ -319,9 +319,9 @@ def test_moves_are_read_only_data():
         ([0, np.nan], [[0], [1]], "t: wanted finite"),
         ([0, np.inf], [[0], [1]], "t: wanted finite"),
         ("ab", [[0], [1]], "t: wanted numbers"),
-        ([0, 1], [0, 1], r"positions: wanted \(2, motors\), got \(2,\)"),
-        ([0, 1], [[0], [1], [2]], r"positions: wanted \(2, motors\), got \(3, 1\)"),
-        ([0, 1], np.empty((2, 0)), r"positions: wanted \(2, motors\), got \(2, 0\)"),
+        ([0, 1], [0, 1], r"positions: wanted shape \(2, motors\), got \(2,\)"),
+        ([0, 1], [[0], [1], [2]], r"positions: wanted shape \(2, motors\), got \(3, 1\)"),
+        ([0, 1], np.empty((2, 0)), r"positions: wanted shape \(2, motors\), got \(2, 0\)"),
         ([0, 1], [[0], [np.nan]], "positions: wanted finite"),
         ([0, 1], [[0], [0.5]], "first and last of positions: wanted whole pulses"),
         ([0, 1], [[0.5], [0]], "first and last of positions: wanted whole pulses"),
@@ -393,7 +393,7 @@ def test_wrong_arguments_are_refused():
             lambda: Stepper().run([1], [1], load_inertia=-1),
             "load_inertia: wanted a number that is not negative",
         ),
-        (lambda: Stepper().run([1], [1], load=1e300), "load: wanted one that turns"),
+        (lambda: Stepper().run([1], [1], load=1e300), "load: wanted a value that turns"),
         (lambda: ramp(0, 10, 20, 1), "pulses: wanted a whole number from 1 to"),
         (lambda: ramp(5, 30, 20, 1), "start and end: wanted start <= end, got 30 and 20"),
         (lambda: ramp(5, 10, 20, -1), "seconds: wanted a number that is not negative"),
@@ -685,7 +685,7 @@ def test_load_or_torque_that_turns_the_rotor_too_fast_is_refused(sign):
         motor.run([1e-3], [1], load=2.002 * sign * FASTEST)
     strong = {"damping": 1, "inertia": 1e-9, "rise": 0}
     assert Stepper(torque=FASTEST, **strong).run([1e-9], [1], load=sign).lost == 0
-    with pytest.raises(ValueError, match=r"^torque: wanted one that turns .*got 1\.001e\+09 N m"):
+    with pytest.raises(ValueError, match=r"^torque: wanted a value that turns .*got 1\.001e\+09 N m"):
         Stepper(torque=1.001 * FASTEST, **strong).run([1e-9], [1], load=sign)
 
 
