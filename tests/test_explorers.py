@@ -75,7 +75,7 @@ POSES = {
 }
 SAMPLES = 241  # samples of a motion in the page
 KINDS = {
-    "joint": lambda: joint_explorer(IRB140),
+    "joint": lambda: joint_explorer(IRB140, singular=True),
     "target": lambda: target_explorer(IRB140),
     "motion": lambda: motion_explorer(IRB140, START, VIA, GOAL),
 }
@@ -261,7 +261,7 @@ def tells_the_flange(shown, exact=True):
 
 @named(JOINTS)
 def test_joint_explorer_shows_the_flange(opened, arm):
-    shown = opened(joint_explorer(arm), arm)
+    shown = opened(joint_explorer(arm, singular=True), arm)
     rng, n = random.Random(3), len(arm.links)
     poses, seen = map(list, zip(tells_the_flange(shown), strict=True))
     ends = arm.limits / [[unit["size"]] for unit in shown.data["units"]]
@@ -280,7 +280,7 @@ def test_joint_explorer_shows_the_flange(opened, arm):
 
 
 def test_joint_explorer_names_singularities(opened):
-    shown = opened(joint_explorer(IRB140, np.zeros(6)), IRB140)
+    shown = opened(joint_explorer(IRB140, np.zeros(6), singular=True), IRB140)
     assert shown.look().says == "Singular: wrist singularity."
     shown.type("q5", 30)
     assert shown.look().says == "Not singular."
@@ -288,8 +288,18 @@ def test_joint_explorer_names_singularities(opened):
     assert shown.look().says == "Singular: wrist singularity."
 
 
+def test_explorer_says_nothing_of_singularities_unless_asked(opened):
+    shown = opened(joint_explorer(IRB140, np.zeros(6)), IRB140)
+    text = shown.page.locator(".rk").inner_text()
+    assert "ingular" not in text and "ellipsoid" not in text and "quaternion" in text
+    assert shown.page.get_by_label("joint axes").count() == 1
+    more = opened(joint_explorer(IRB140, np.zeros(6), singular=True), IRB140)
+    text = more.page.locator(".rk").inner_text()
+    assert "distance from singularity" in text and "ellipsoid" in text
+
+
 def test_number_box_stops_at_the_limit_and_shows_its_value(opened):
-    shown = opened(joint_explorer(IRB140), IRB140)
+    shown = opened(joint_explorer(IRB140, singular=True), IRB140)
     shown.type("q1", 999)
     assert shown.look().boxes["q1"] == 180 and tells_the_flange(shown)[0][0] == np.pi
     before = shown.look()
@@ -768,7 +778,7 @@ def follows_the_pointer(shown, name, key, parts):
 
 @named((IRB140, SCARA, FLAT, LEVERS, UR5))
 def test_dragging_moves_only_the_held_joint(opened, arm):
-    shown, seen = opened(joint_explorer(arm), arm), 0
+    shown, seen = opened(joint_explorer(arm, singular=True), arm), 0
     ends = arm.limits / [[unit["size"]] for unit in shown.data["units"]]
     for j, (_, high) in enumerate(ends):
         name = f"q{j + 1}"
@@ -1162,7 +1172,7 @@ def test_arm_fills_the_scene_on_opening(opened):
 
 def test_rings_of_an_arm_do_not_overlap(opened):
     for arm in (IRB140, SCARA, PUMA560):
-        shown = opened(joint_explorer(arm), arm)
+        shown = opened(joint_explorer(arm, singular=True), arm)
         boxes = [shown.handle(f"q{i + 1}").bounding_box() for i in range(len(arm.links))]
         places = np.array([(box["x"], box["y"]) for box in boxes])
         apart = np.linalg.norm(places[:, None] - places, axis=-1)
@@ -1315,6 +1325,7 @@ def test_errors_for_wrong_calls_name_what_is_wanted():
     for call, kind, words in (
         (lambda: joint_explorer("IRB-140"), TypeError, "arm: wanted an Arm"),
         (lambda: joint_explorer(IRB140, np.zeros(5)), ValueError, "q: wanted"),
+        (lambda: joint_explorer(IRB140, singular=1), ValueError, "singular: wanted True or False"),
         (lambda: joint_explorer(IRB140, np.zeros((2, 6))), ValueError, "q: wanted one posture"),
         (lambda: target_explorer(3), TypeError, "arm: wanted a ClosedFormArm"),
         (lambda: target_explorer(unknown), TypeError, "arm: Unknown has no inverse for pages"),

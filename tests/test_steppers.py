@@ -685,7 +685,9 @@ def test_load_or_torque_that_turns_the_rotor_too_fast_is_refused(sign):
         motor.run([1e-3], [1], load=2.002 * sign * FASTEST)
     strong = {"damping": 1, "inertia": 1e-9, "rise": 0}
     assert Stepper(torque=FASTEST, **strong).run([1e-9], [1], load=sign).lost == 0
-    with pytest.raises(ValueError, match=r"^torque: wanted a value that turns .*got 1\.001e\+09 N m"):
+    with pytest.raises(
+        ValueError, match=r"^torque: wanted a value that turns .*got 1\.001e\+09 N m"
+    ):
         Stepper(torque=1.001 * FASTEST, **strong).run([1e-9], [1], load=sign)
 
 

@@ -19,6 +19,7 @@ from ..quaternion import Quaternion
 from ..transform import Transform
 from ..units import deg, length_unit, mm
 from .camera import common_plane, extent
+from .checks import yes
 from .explorer import (
     TAKE,
     TURNS,
@@ -50,11 +51,12 @@ MEANT = (
 )
 
 
-def joint_explorer(arm: Arm, q: ArrayLike | None = None) -> "Explorer":
-    """Show an arm with a ring and a slider for each joint, all its frames, the numbers of the
-    flange, and the distance from a singularity. It opens at the posture q (n,), by default at one
-    that is easy to see. It displays itself at the end of a cell. TypeError: not an Arm. ValueError:
-    a q that is not a posture.
+def joint_explorer(arm: Arm, q: ArrayLike | None = None, *, singular: bool = False) -> "Explorer":
+    """Show an arm with a ring and a slider for each joint, all its frames, and the numbers of the
+    flange. It opens at the posture q (n,), by default at one that is easy to see. With `singular`
+    it also shows the distance from a singularity, says which singularities the posture has, and can
+    show the ellipsoid of tool velocities. It displays itself at the end of a cell. TypeError: not
+    an Arm. ValueError: a q that is not a posture.
 
     Roll, pitch and yaw are rotations about the fixed x, y and z axes of the base, in this order: R
     = Rz Ry Rx. (At a pitch of +-90 degrees roll and yaw rotate about the same line, and roll is set
@@ -70,6 +72,7 @@ def joint_explorer(arm: Arm, q: ArrayLike | None = None) -> "Explorer":
         control(f"q{i + 1}", unit["name"], low, high, 1 if unit["name"] != "m" else 0.001)
         for i, (unit, (low, high)) in enumerate(zip(units(arm), limits, strict=True))
     ]
+    singular = yes(singular, "singular")
     facts = (
         (f"position, {name}", "place", ["x", "y", "z"], 1 if size == mm else 3),
         ("orientation, °", "turns", ["roll", "pitch", "yaw"], 1),
@@ -78,7 +81,7 @@ def joint_explorer(arm: Arm, q: ArrayLike | None = None) -> "Explorer":
     )
     rows: list[FactRow] = [
         {"name": named, "fact": fact, "heads": heads, "decimals": decimals}
-        for named, fact, heads, decimals in facts
+        for named, fact, heads, decimals in facts[: 4 if singular else 3]
     ]
     values = ", ".join(f"q{i + 1} {number(x, 0)}" for i, x in enumerate(start / sizes(arm)))
     flange = arm.fk(start).translation / size
@@ -92,10 +95,16 @@ def joint_explorer(arm: Arm, q: ArrayLike | None = None) -> "Explorer":
         summary,
         controls,
         start[None],
-        meant=f"{TAKE}{TURNS} {MEANT}",
+        meant=f"{TAKE}{TURNS} {MEANT if singular else ''}".strip(),
         code=f"{imports(arm)}\nq = np.array([{{q}}])\n{code_name(arm)}.fk(q)",
     )
-    data: JointPage = {"kind": "joint", **page, "q": start.tolist(), "rows": rows}
+    data: JointPage = {
+        "kind": "joint",
+        **page,
+        "q": start.tolist(),
+        "rows": rows,
+        "singular": singular,
+    }
     frames = arm.frames(start)
     still = picture(summary, arm, start, frames=[frames[i] for i in range(len(arm.links))])
     return Explorer(data, still)

@@ -282,11 +282,14 @@ class ArmPage(ExplorerPage):
 
 
 class JointPage(ArmPage):
-    """The data of the joint explorer: the posture q, and rows of numbers."""
+    """The data of the joint explorer: the posture q, rows of numbers, and whether it speaks of
+    singularities.
+    """
 
     kind: Literal["joint"]
     q: list[float]
     rows: list[FactRow]
+    singular: bool
 
 
 class LeversPage(ArmPage):

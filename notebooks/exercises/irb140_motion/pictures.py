@@ -84,8 +84,8 @@ def p5_view() -> str:
         )
     lines.append(
         "The change of the speed stays, the quotients do not: the first belongs to the robot's "
-        "motion, the others to the method. (differentiate spreads the change over two steps: half "
-        "the number.)"
+        "motion, the others to the method. (differentiate spreads the change over two steps: about "
+        "half the number.)"
     )
     return "\n".join(lines)
 

@@ -98,7 +98,7 @@ def p5() -> dict[str, Any]:
     first, last = ARM.family(place, np.array([low, 180]) * deg)[:, 0] / deg
     guesses = {"all of it": 100.0, "half of it": 50.0, "1 % of it": 1.0, "none of it": 0.0}
     told = {"phi": BEHIND, "KO": BEHIND_KO, "low": low, "share": share, "first": first}
-    none_from = next(phi for phi in np.arange(150, 180, 0.1) if usable(phi) == 0)
+    none_from = next(phi for phi in np.arange(150, 180, 0.01) if usable(phi) == 0)
     return told | {"last": last, "none_from": none_from, "right": nearest(share, guesses)}
 
 

@@ -55,7 +55,7 @@ function jointExplorer(stage, data) {
     copy = copyButton(words, () => fill(data.code, {q: inUnits(units, state.q)}));
   stage.side.append(
     ...sliders.map(s => s.row),
-    element("div", {class: "rk-row"}, more.row, axes.row, copy),
+    element("div", {class: "rk-row"}, ...(data.singular ? [more.row] : []), axes.row, copy),
     stage.says,
   );
   stage.below.append(numbers.node);
@@ -65,7 +65,7 @@ function jointExplorer(stage, data) {
     const {q} = state;
     sliders.forEach((s, j) => s.set(q[j] / sizes[j]));
     numbers.set(cells(data, q));
-    stage.say(singular(data, q));
+    if (data.singular) stage.say(singular(data, q));
     return [
       {
         name: arm.name,

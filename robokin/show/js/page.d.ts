@@ -289,6 +289,7 @@ export interface JointPage {
   kind: "joint";
   q: number[];
   rows: FactRow[];
+  singular: boolean;
 }
 
 export interface LeversPage {
