@@ -4,6 +4,7 @@ JupyterLab. `benchmarks/fit.py` measures every lab in JupyterLab.
 
 import re
 
+import nbformat
 import pytest
 from canvas_words import RECORD as WORDS
 from canvas_words import faults
@@ -95,8 +96,15 @@ def test_views_fit_beside_the_file_browser_of_jupyterlab(browser, jupyter):
     panel = page.locator(".jp-WindowedPanel-outer, .jp-Notebook").first.bounding_box()
     assert panel["width"] < 1100, "the file browser is closed"
     found = [view for view in walked(page) if "rk-ask" not in view["kind"]]
-    stored = (NOTEBOOKS / lab).read_text(encoding="utf-8")
-    count = len(re.findall(r"\\$(?!prediction)\w+\.(?:play|explore|show)\(", stored))
+    outputs = [
+        output["data"]["text/html"]
+        for cell in nbformat.read(NOTEBOOKS / lab, as_version=4).cells
+        for output in cell.get("outputs", ())
+        if 'class="robokin-player"' in output.get("data", {}).get("text/html", "")
+    ]
+    call = re.compile(r"^\$(\w+)\.(?:play|ask|explore|show)\(", re.M)
+    calls = [call.search(output)[1] for output in outputs]
+    count = sum(name != "prediction" for name in calls)
     assert len(found) == count >= 5
     for view in found:
         assert view["width"] < 920 and view["height"] <= view["most"] <= panel["height"], view
