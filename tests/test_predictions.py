@@ -284,7 +284,7 @@ def test_question_in_jupyterlab_works_and_keeps_its_keys(jupyter, page):
     assert "limits" not in question.locator(".rk-answer").inner_text()
     page.keyboard.press("Enter")
     expect(question.locator(".rk-answer")).to_contain_text("bent line in the joints")
-    question.locator(".rk-answer img").wait_for()
+    question.locator(".rk-answer canvas").wait_for()
     beside.append(cell.evaluate(NEIGHBOURS))
     assert beside[0] == beside[1] and beside[0][1] and first.is_visible(), (
         "a cell was added or removed"
