@@ -369,11 +369,11 @@ def test_the_answers_to_the_oral_questions_are_folded(page, address):
 def test_other_files_are_kept(tmp_path):
     (tmp_path / "mine.txt").write_text("mine")
     run = command(tmp_path)
-    assert run.returncode == 1 and "nothing is overwritten" in run.stderr
+    assert run.returncode == 1 and "nothing was overwritten" in run.stderr
     assert "Traceback" not in run.stderr and str(tmp_path) in run.stderr
     assert [path.name for path in tmp_path.iterdir()] == ["mine.txt"]
     file = tmp_path / "mine.txt"
-    with pytest.raises(ValueError, match="nothing is overwritten"):
+    with pytest.raises(ValueError, match="nothing was overwritten"):
         making._older(file)
 
 
