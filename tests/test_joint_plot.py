@@ -129,7 +129,7 @@ def test_figure_becomes_curves_with_axes_limits_and_sentences(browser, width):
     assert page.get_by_text("Joint 3 goes too far").is_visible()
     assert page.get_by_text(f"Joint 3 past its limit in {PAST} of 2001 samples.").is_visible()
     assert canvas.get_attribute("aria-label") == fig.alt and page.locator("img").count() == 0
-    assert canvas.bounding_box()["height"] > 600
+    assert canvas.bounding_box()["height"] > 500
     assert page.evaluate("document.documentElement.scrollWidth") <= width
     page.close()
     assert said == []

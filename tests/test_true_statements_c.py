@@ -234,7 +234,7 @@ def test_notch_begins_and_tool_passes_joint_1_where_stated():
 
 def test_both_motions_to_the_same_orientation_have_the_stated_greatest_speeds():
     slow, fast = numbers(
-        r"speed (\S+) °/s \(joint 5\).* (\S+) °/s \(joint 4\)", shown("06", "twins")
+        r"speed of \d+ samples (\S+) °/s \(joint 5\).* (\S+) °/s \(joint 4\)", shown("06", "twins")
     )
     # the law accelerates for a quarter of the time and brakes for a quarter
     assert "trapezoidal(duration=1)" in cells("06")["twins"]

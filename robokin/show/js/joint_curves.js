@@ -11,7 +11,7 @@ import {unpacked} from "./unpacked.js";
 /** @import {Line, Panel} from "./panel.js" */
 
 const EACH = 205, // px for a panel with its name
-  MOST = 500; // px for all panels, so that a figure with three fits on the screen
+  MOST = 495; // px for all panels, so that a figure with three fits on the screen
 
 /**
  * Builds the view in every place that waits for this id.

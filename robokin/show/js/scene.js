@@ -254,15 +254,7 @@ function drawSpace(pen, arms, [x, y, w, h], named) {
   const written = [];
   for (const one of all) drawFlange(one, written);
   written.push(...compass(g, cam, [x + w - 34, y + h - 34]));
-  if (first.row && arms.length === 1) {
-    g.font = font(12);
-    const wide = g.measureText(first.row).width;
-    /** @type {(up: number) => Box} */
-    const box = up => [x + 10, y + h - 36 - up, wide, 16];
-    const up = [0, 16, 32, 48].find(up => !hit(box(up), written)) ?? 0;
-    write(g, first.row, x + 10, y + h - 24 - up, colors.ink, 12);
-    written.push(box(up));
-  }
+  if (first.row && arms.length === 1) written.push(writeRow(g, first.row, [x, y + h], written));
   for (const {
     cam: {to},
     joints,
@@ -294,6 +286,23 @@ function drawSpace(pen, arms, [x, y, w, h], named) {
       "center",
       "600",
     );
+}
+
+/**
+ * Writes the row of `ik` in a corner, above what is written there; returns its box.
+ * @param {Context} g
+ * @param {string} row
+ * @param {Pixel} corner  the lower left one
+ * @param {Box[]} written
+ */
+function writeRow(g, row, [x, y], written) {
+  g.font = font(12);
+  const wide = g.measureText(row).width;
+  /** @type {(up: number) => Box} */
+  const box = up => [x + 10, y - 36 - up, wide, 16];
+  const up = [0, 16, 32, 48].find(up => !hit(box(up), written)) ?? 0;
+  write(g, row, x + 10, y - 24 - up, colors.ink, 12);
+  return box(up);
 }
 
 /**
