@@ -15,7 +15,7 @@ from test_browser import NEXT_FRAME
 from robokin.course import site as making
 from robokin.course.export import View, export
 from robokin.course.predictions import ASLEEP
-from robokin.show.page import STILL
+from robokin.show.markup import STILL
 
 LABS = [path.stem for path in sorted(NOTEBOOKS.glob("*.ipynb"))]
 SOME = ("01_frames_and_quaternions", "06_spherical_wrist", "12_two_link_code_generation")
