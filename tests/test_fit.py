@@ -34,6 +34,8 @@ def test_views_fit_and_their_words_can_be_read_on_a_laptop_and_on_a_phone(browse
     for width, theme in ((1036, "light"), (900, "dark"), (390, "dark")):
         page = opened(browser, exported[lab], width, theme)
         assert faults(page) == [], f"{width} px, {theme}"
+        written = page.evaluate("canvasWords().flatMap(each => each.words).length")
+        assert written > 20, "no words were recorded"
         found = sizes(page)
         assert found, "no view is open"
         for view in found if width == 1036 else ():

@@ -35,6 +35,12 @@ def at(fig, whole):
     return np.stack([np.interp(fig.page["times"], T, column) for column in whole.T], axis=-1)
 
 
+def test_two_samples_are_enough():
+    fig = plot_joints(IRB140, [0, 2], [[0.0] * 6, [0.5] * 6])
+    np.testing.assert_allclose(values(fig, 0), [[0.0] * 6, [0.5] * 6], atol=1e-4)
+    assert "joint curves" in html(fig)
+
+
 @pytest.mark.parametrize(("arm", "q"), [(IRB140, Q), (SCARA, SLIDING)])
 def test_curves_of_the_page_are_those_of_the_motion(arm, q):
     fig, found = plot_joints(record(arm, T, q)), record(arm, T, q)

@@ -81,7 +81,7 @@ def tracks(
             _shaped(track.q, lead, len(t), track.arm, f"recording of {name}")
             if not np.array_equal(track.t, t):
                 raise ValueError(f"recording of {name}: wanted the same times as for {named[0]}")
-            tracks.append(_in_a_row(track))
+            tracks.append(in_a_row(track))
         else:
             motion = floats(motion, f"q of {name}", finite=False)
             _shaped(motion, lead, len(t), track, f"q of {name}")
@@ -105,7 +105,7 @@ def _shaped(q: Floats, lead: tuple[int, ...], count: int, arm: Arm, name: str) -
         raise ValueError(f"{name}: wanted shape {wanted} ({axes}), got {q.shape}")
 
 
-def _in_a_row(recording: Recording) -> Recording:
+def in_a_row(recording: Recording) -> Recording:
     """The same recording with its motions along one axis: (C, N, n)."""
     lead = recording.shape
 

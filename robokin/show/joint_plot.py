@@ -10,10 +10,9 @@ from .._arrays import ArrayLike, Floats, sealed
 from .._validate import floats
 from ..arms.arm import Arm
 from ..motion.recording import Recording, record
-from ..units import deg, length_unit, mm
+from ..units import deg, mm
 from . import findings
-from .arguments import tracks
-from .camera import extent
+from .arguments import in_a_row
 from .checks import if_given, samples, sentence
 from .numbers import NOTHING, packed, scale, thin, tidy
 from .output import Output
@@ -137,13 +136,12 @@ def curves_page(
     recording, in which spikes are NaN.
     """
     arm, t = recording.arm, recording.t
-    (track,), _ = tracks(recording, None, None, (), None)
-    name, length = length_unit(extent(arm))
-    unit: Unit = {"name": name, "size": length}
-    units = np.where(arm.prismatic, length, deg)
+    track = in_a_row(recording)
+    unit: Unit = {"name": "mm", "size": mm}
+    units = np.where(arm.prismatic, mm, deg)
     spikes = [np.isfinite(drawn[k]) & np.isnan(getattr(recording, k)) for k in kinds]
     kept = np.union1d(thin(len(t), [track], SAMPLES), np.flatnonzero(np.any(spikes, axis=(0, 2))))
-    flaws = findings.flaws(track, kept, units, name)
+    flaws = findings.flaws(track, kept, units, "mm")
     jumps, leaps = (flaws[key].get("0", []) for key in ("jumps", "leaps"))
     panels: list[CurvePanel] = []
     for order, kind in enumerate(kinds):

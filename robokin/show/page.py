@@ -132,11 +132,9 @@ class PageArm(Greatest, Flaws):
     via: list[list[float] | None] | None
 
 
-class Page(TypedDict):
-    """The data of a player. `nothing`: the integer in a `Packed` that means "no value". `decimals`:
-    the numbers of decimals for speeds and accelerations. `sampled` says from which samples the
-    greatest values come. `ticks` is the scale of the time axis, `dashes` are the dashes of the
-    joints' lines.
+class TimePage(TypedDict):
+    """The data of every view of curves over time. `nothing`: the integer in a `Packed` that means
+    "no value". `ticks` is the scale of the time axis, `dashes` are the dashes of the joints' lines.
     """
 
     title: str
@@ -145,10 +143,17 @@ class Page(TypedDict):
     nothing: int
     times: list[float]
     ticks: Scale
+    dashes: list[list[float]]
+
+
+class Page(TimePage):
+    """The data of a player. `decimals`: the numbers of decimals for speeds and accelerations.
+    `sampled` says from which samples the greatest values come.
+    """
+
     slider: Slider | None
     switch: Switch | None
     unit: Unit
-    dashes: list[list[float]]
     scene: PageScene
     panels: list[PagePanel]
     quantities: list[PageQuantity]
@@ -168,19 +173,11 @@ class CurvePanel(PagePanel):
     marks: list[tuple[float, str]]
 
 
-class PageCurves(TypedDict):
+class PageCurves(TimePage):
     """The joint curves of one motion: `prismatic` for each joint, the samples after which the
-    curves break, and sentences about them, each with True if it reports a violation. The other keys
-    are those of `Page`.
+    curves break, and sentences about them, each with True if it reports a violation.
     """
 
-    title: str
-    summary: str
-    alt: str
-    nothing: int
-    times: list[float]
-    ticks: Scale
-    dashes: list[list[float]]
     prismatic: list[bool]
     gaps: list[int]
     panels: list[CurvePanel]

@@ -158,6 +158,16 @@ export interface PageArm {
   via: (number[] | null)[] | null;
 }
 
+export interface TimePage {
+  title: string;
+  summary: string;
+  alt: string;
+  nothing: number;
+  times: number[];
+  ticks: Scale;
+  dashes: number[][];
+}
+
 export interface Page {
   title: string;
   summary: string;
@@ -165,10 +175,10 @@ export interface Page {
   nothing: number;
   times: number[];
   ticks: Scale;
+  dashes: number[][];
   slider: Slider | null;
   switch: Switch | null;
   unit: Unit;
-  dashes: number[][];
   scene: PageScene;
   panels: PagePanel[];
   quantities: PageQuantity[];
