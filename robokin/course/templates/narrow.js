@@ -39,7 +39,7 @@
   document.addEventListener("DOMContentLoaded", () => {
     fold(parsed.takeRecords());
     parsed.disconnect();
-    const boxes = "pre, table, .table-wrapper, math[display=block], p, ul, ol";
+    const boxes = "pre, table, .table-wrapper, .robokin-figure, math[display=block], p, ul, ol";
     for (const box of document.querySelectorAll(`:is(main, article) :is(${boxes})`))
       if (!box.closest(".robokin-player")) sizes.observe(box);
   });
