@@ -90,6 +90,15 @@ def bools(value: Any, name: str) -> Bools:
     return array
 
 
+def selected(part: Floats) -> Floats:
+    """Return the part of an array that an index selected. ValueError: it has so many axes that
+    NumPy could not broadcast it.
+    """
+    if part.ndim > AXES + 2:
+        raise ValueError(f"index: wanted at most {AXES + 2} axes, got {part.ndim}")
+    return part
+
+
 def shape_of(value: Any, name: str) -> tuple[int, ...]:
     """Return `value`. ValueError: it is not the shape of an array with at most 30 axes."""
     if not (isinstance(value, (tuple, list)) and all(type(n) is int and n >= 0 for n in value)):

@@ -13,7 +13,7 @@ from typing import Any, Self, overload
 import numpy as np
 
 from ._arrays import ArrayLike, Floats, Sealed, components, sealed, stack
-from ._validate import AXES, broadcast, floats, instance, shape_of, warn_if_degrees
+from ._validate import broadcast, floats, instance, selected, shape_of, warn_if_degrees
 
 UNIT = 1e-6  # a length within this of 1 is accepted and normalised
 UPRIGHT = 1e-14  # a pitch within this of +-90 degrees counts as +-90 degrees
@@ -205,10 +205,7 @@ class Quaternion(Batch):
 
     def __getitem__(self, index: Any) -> "Quaternion":
         whole = (*index, slice(None)) if isinstance(index, tuple) else (index, slice(None))
-        part = self.wxyz[whole]
-        if part.ndim > AXES + 2:
-            raise ValueError(f"index: wanted at most {AXES + 2} axes, got {part.ndim}")
-        return Quaternion._of(part)
+        return Quaternion._of(selected(self.wxyz[whole]))
 
     @overload
     def __matmul__(self, other: "Quaternion") -> "Quaternion": ...

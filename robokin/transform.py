@@ -11,7 +11,7 @@ from typing import Any, overload
 import numpy as np
 
 from ._arrays import ArrayLike, Floats, components, sealed, stack
-from ._validate import broadcast, floats, instance, shape_of
+from ._validate import broadcast, floats, instance, selected, shape_of
 from .quaternion import Batch, Quaternion, rounded
 
 HERE = Quaternion.identity()
@@ -88,7 +88,8 @@ class Transform(Batch):
 
     def __getitem__(self, index: Any) -> "Transform":
         whole = (*index, slice(None)) if isinstance(index, tuple) else (index, slice(None))
-        return Transform._of(self.rotation[index], self.translation[whole])
+        rotation = Quaternion._of(self.rotation.wxyz[whole])
+        return Transform._of(rotation, selected(self.translation[whole]))
 
     @overload
     def __matmul__(self, other: "Transform") -> "Transform": ...
