@@ -17,6 +17,7 @@ import numpy as np
 import pytest
 import test_browser
 from axe_playwright_python.sync_playwright import Axe
+from canvas_words import RECORD
 from conftest import ROOT, awake, until
 from machines import UR5
 from scipy.optimize import brentq
@@ -553,6 +554,28 @@ def test_sliders_change_the_lever_lengths(opened):
     shown.type("lever AK", 1.5)  # the point is now inside the border |OB - BA| + AK
     shown.type("lever BA", 0.5)
     assert shown.look().says == "No posture reaches this point."
+
+
+def test_ranges_of_the_free_angle_can_be_compared(context, opened):
+    """The axis does not follow the range: an angle has the same place for every target."""
+    context.add_init_script(RECORD)
+    shown = opened(target_explorer(LEVERS), LEVERS)
+    places, spans = [], set()
+    for x in (-0.5, -0.1, 0.2, 0.4, 0.6):
+        shown.type("x", 1000 * x)
+        shown.type("y", 500)
+        shown.look()
+        curves = shown.page.evaluate("canvasWords()")[-1]["words"]
+        ends = [word for word in curves if re.fullmatch(r"[\d.]+\.\d°", word["text"])]
+        low, high = np.array(LEVERS.alpha_range((x, 0.5))) / deg
+        assert [float(end["text"][:-1]) for end in ends] == pytest.approx([low, high], abs=0.06)
+        (left, _, width, _), (right, *_) = (end["box"] for end in ends)
+        places += [(low, left + width + 3), (high, right - 3)]
+        spans.add(round(high - low))
+    angles, pixels = np.transpose(places)
+    slope, start = np.polyfit(angles, pixels, 1)
+    assert len(spans) > 3 and 180 * slope > 150
+    assert np.allclose(start + slope * angles, pixels, atol=0.6)
 
 
 # --- The motion explorer --------------------------------------------------------------------------

@@ -22,13 +22,14 @@ import {point} from "./mark.js";
 
 /** @typedef {LeversPage & {arm: ThreeLeverArm}} LeversExplorer */
 /**
- * The cost of the free angle alpha: its range, its value, the best value, and the cost `at` any
- * value.
+ * The cost of the free angle alpha: its range, its value, the best value, the limits of its joint,
+ * and the cost `at` any value.
  * @typedef {object} Costs
  * @property {number} low
  * @property {number} high
  * @property {number} alpha
  * @property {number} best
+ * @property {number[]} limits
  * @property {(alpha: number) => number} at
  */
 
@@ -158,6 +159,7 @@ function costsOf(state) {
     high,
     alpha: state.alpha,
     best: least(arm, state, before)[2],
+    limits: arm.limits[2],
     at: alpha => travel(family(arm, state, alpha), before),
   };
 }
@@ -249,7 +251,8 @@ const pythonOf = ({code, unit}, {place, alpha, arm}) =>
   });
 
 /**
- * Draws the sum S of the absolute angle changes against the free angle.
+ * Draws the sum S of the absolute angle changes against the free angle. The axis of the angle keeps
+ * the limits of its joint, so that the reader sees the range grow and shrink.
  * @param {HTMLCanvasElement} canvas
  * @param {Record<string, string>} says
  * @param {?Costs} costs
@@ -260,32 +263,35 @@ function drawCosts(canvas, says, costs) {
   if (!ready) return null;
   const [g, w, h] = ready,
     left = 44,
-    right = w - 12,
+    right = w - 42,
     top = 26,
     bottom = h - 34;
   write(g, says.costTitle, 6, 14, colors.ink, 12, "left", "600");
   if (!costs) return null;
-  const {low, high, alpha, best, at} = costs,
-    count = 120;
-  const alphas = Array.from({length: count + 1}, (_, i) => low + ((high - low) * i) / count),
+  const {low, high, alpha, best, at, limits} = costs,
+    span = limits[1] - limits[0];
+  const alphas = Array.from({length: 121}, (_, i) => low + ((high - low) * i) / 120),
     S = alphas.map(at);
   const most = Math.max(...S, 1e-9),
     least = Math.min(...S),
     room = Math.max(most - least, 1e-9);
   /** @type {(value: number) => number} */
-  const x = value => left + (right - left) * (high > low ? (value - low) / (high - low) : 0.5);
+  const x = value => left + ((right - left) * (value - limits[0])) / span;
   /** @type {(value: number) => number} */
   const y = value => bottom - ((bottom - top) * (value - least + 0.05 * room)) / (1.1 * room);
-  for (const value of [least, most]) {
+  /** @type {(py: number) => void} */
+  const level = py =>
     stroke(
       g,
       [
-        [left, y(value)],
-        [right, y(value)],
+        [left, py],
+        [right, py],
       ],
       colors.grid,
       1,
     );
+  for (const value of [least, most]) {
+    level(y(value));
     write(
       g,
       `${number(degrees(value), 0)}\u00B0`,
@@ -302,13 +308,33 @@ function drawCosts(canvas, says, costs) {
     colors.accent,
     2,
   );
+  level(bottom);
   upright(g, x(best), top, bottom, colors.near, 1.4, [4, 3]);
   upright(g, x(alpha), top, bottom, colors.ink, 1.4);
   spot(g, [x(alpha), y(at(alpha))], 4.5, colors.accent);
-  write(g, `${number(degrees(low), 1)}\u00B0`, left, bottom + 14, colors.soft, 11, "left");
-  write(g, `${number(degrees(high), 1)}\u00B0`, right, bottom + 14, colors.soft, 11, "right");
+  drawAngles(g, costs, x, bottom + 14);
   write(g, says.costAxis, (left + right) / 2, bottom + 28, colors.soft, 11, "center");
   return {
-    alphaAt: px => low + (high - low) * Math.min(1, Math.max(0, (px - left) / (right - left))),
+    alphaAt: px => limits[0] + (span * (px - left)) / (right - left),
   };
+}
+
+/**
+ * Writes both ends of the range of the free angle below the axis, and each limit that has room.
+ * @param {CanvasRenderingContext2D} g
+ * @param {Costs} costs
+ * @param {(value: number) => number} x
+ * @param {number} y
+ */
+function drawAngles(g, {low, high, limits}, x, y) {
+  /** @type {(value: number, decimals: number, color: string, gap: number) => void} */
+  const name = (value, decimals, color, gap) => {
+    const align = gap ? (gap < 0 ? "right" : "left") : "center";
+    write(g, `${number(degrees(value), decimals)}\u00B0`, x(value) + gap, y, color, 11, align);
+  };
+  name(low, 1, colors.ink, -3);
+  name(high, 1, colors.ink, 3);
+  const room = 60; // px for a range's end and half of a limit
+  if (x(low) > x(limits[0]) + room) name(limits[0], 0, colors.soft, 0);
+  if (x(high) < x(limits[1]) - room) name(limits[1], 0, colors.soft, 0);
 }
