@@ -6,17 +6,17 @@
   const narrow = matchMedia("screen and (max-width: 699.98px)");
   /** @type {WeakMap<HTMLDetailsElement, boolean>} */
   const left = new WeakMap(); // cell -> whether it was open
-  /** @param {MutationRecord[]} records */
-  const fold = records => {
-    for (const node of records.flatMap(record => [...record.addedNodes]))
-      if (node instanceof HTMLDetailsElement && node.matches(".rk-code"))
-        node.open = !narrow.matches;
+  // A live list of the cells: to look at every new node of the page would block a slow phone.
+  const cells = /** @type {HTMLCollectionOf<HTMLDetailsElement>} */ (
+    document.getElementsByClassName("rk-code")
+  );
+  let folded = 0;
+  const fold = () => {
+    for (; folded < cells.length; folded++) cells[folded].open = !narrow.matches;
   };
   const parsed = new MutationObserver(fold);
   parsed.observe(document, {childList: true, subtree: true});
   narrow.addEventListener("change", () => {
-    /** @type {NodeListOf<HTMLDetailsElement>} */
-    const cells = document.querySelectorAll("details.rk-code");
     for (const cell of cells) {
       if (!narrow.matches) left.set(cell, cell.open);
       cell.open = !narrow.matches || (left.get(cell) ?? false);
@@ -37,7 +37,7 @@
     }
   });
   document.addEventListener("DOMContentLoaded", () => {
-    fold(parsed.takeRecords());
+    fold();
     parsed.disconnect();
     const boxes = "pre, table, .table-wrapper, .robokin-figure, math[display=block], p, ul, ol";
     for (const box of document.querySelectorAll(`:is(main, article) :is(${boxes})`))
