@@ -174,6 +174,21 @@ def test_views_of_one_kind_share_a_script(browser):
     tab.close()
 
 
+def test_views_start_one_at_a_time_with_a_frame_in_between(browser):
+    """Also after a view whose start failed."""
+    pages = [markup.output("prediction.ask", k * 12, "0", "<p>words</p>") for k in "abc"]
+    starts = "{starts.push(frames); if (starts.length == 2) throw new Error('on purpose')}"
+    pages = [re.sub(r"\$prediction\.ask\(.*\);", starts, one) for one in pages]
+    count = "globalThis.starts = []; globalThis.frames = 0;"
+    count += "(function next() { frames++; requestAnimationFrame(next); })();"
+    tab = browser.new_page()
+    tab.set_content(f"<script>{count}</script>{''.join(pages)}")
+    tab.wait_for_function("starts.length == 3")
+    first, second, third = tab.evaluate("starts")
+    assert first < second < third
+    tab.close()
+
+
 @pytest.mark.parametrize(
     ("call", "still"),
     [

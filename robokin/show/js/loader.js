@@ -5,6 +5,8 @@
 
 /** @type {Map<string, Promise<unknown>>} */
 const scripts = (Object(globalThis).robokinScripts ??= new Map());
+/** @type {{last: Promise<unknown>}} The start of the latest view, and the picture after it. */
+const turn = (Object(globalThis).robokinTurn ??= {last: Promise.resolve()});
 
 /**
  * @template T
@@ -21,8 +23,21 @@ export function start(id, key, deflated, show) {
       scripts.set(key, script);
       return script;
     })
-    .then(module => show(/** @type {T} */ (module)))
+    .then(module => inTurn(() => show(/** @type {T} */ (module))))
     .catch(error => explain(id, error));
+}
+
+/**
+ * Starts one view at a time, with a picture of the page in between, so that a slow phone can scroll
+ * and take a touch before the next view starts.
+ * @param {() => void} act
+ */
+function inTurn(act) {
+  const done = turn.last.then(act);
+  turn.last = done
+    .catch(() => {})
+    .then(() => new Promise(resolve => requestAnimationFrame(() => setTimeout(resolve))));
+  return done;
 }
 
 /**
@@ -48,8 +63,10 @@ function near(id) {
 
 /** @param {string} deflated */
 async function inflated(deflated) {
-  const bytes = Uint8Array.from(atob(deflated), c => c.charCodeAt(0)),
-    stream = new Blob([bytes]).stream().pipeThrough(new DecompressionStream("deflate"));
+  const text = atob(deflated),
+    bytes = new Uint8Array(text.length);
+  for (let i = 0; i < bytes.length; i++) bytes[i] = text.charCodeAt(i);
+  const stream = new Blob([bytes]).stream().pipeThrough(new DecompressionStream("deflate"));
   return new Response(stream).text();
 }
 
