@@ -100,20 +100,28 @@ def follow(arm: Arm, rows: ArrayLike, row: int) -> Floats:
         wanted = "wanted shape (..., samples, rows, n) with at least one sample"
         raise ValueError(f"rows: {wanted}, got {options.shape}")
     whole(row, "row", 0, options.shape[-2] - 1)
-    choose = _chooser(arm)
-    q = np.full((*options.shape[:-2], options.shape[-1]), np.nan)
-    before = _start(arm, options[..., row, :])
-    started = np.zeros(q.shape[:-2], dtype=bool)
+    *batch, samples, count, n = options.shape
+    tracks = options.reshape(-1, samples, count, n)  # (motions, samples, rows, n)
+    missing = _missing(tracks, row)
+    exists: Bools = ~np.all(missing, axis=-1)
+    before = _start(arm, tracks[:, :, row])[:, None]
+    tracks, cost = np.where(missing[..., None], 0.0, tracks), np.where(missing, np.inf, 0.0)
+    choose, turn = _chooser(arm), np.where(arm.prismatic, 0.0, TURN)
+    # the samples with free joints; a different shift for each joint, so that no two shifts cancel
+    free = (choose(tracks, tracks + np.arange(n)) != tracks).any(axis=(0, 2, 3))
+    complete: Bools = np.all(exists, axis=0)
+    motions = np.arange(len(tracks))
+    q = np.empty((len(tracks), samples, n))
     # Each sample depends on the one before, so this loop over time cannot be an array operation.
-    for i in range(q.shape[-2]):
-        here = options[..., i, :, :]
-        here = np.where(started[..., None, None], here, here[..., row : row + 1, :])
-        here = choose(_unwrapped(arm, here, before[..., None, :]), before[..., None, :])
-        q[..., i, :] = _least(here, before)
-        exists = ~np.isnan(q[..., i, :1])
-        started |= exists[..., 0]
-        before = np.where(exists, q[..., i, :], before)
-    return q
+    for i in range(samples):
+        here = tracks[:, i] - turn * np.rint((tracks[:, i] - before) / TURN)
+        if free[i]:
+            here = choose(here, before)
+        travel = abs(here - before).sum(axis=-1) + cost[:, i]
+        q[:, i] = best = here[motions, travel.argmin(axis=-1)]
+        now = best[:, None]
+        before = now if complete[i] else np.where(exists[:, i, None, None], now, before)
+    return np.where(exists[..., None], q, np.nan).reshape(*batch, samples, n)
 
 
 def explain(arm: ClosedFormArm, pose: Any, row: int) -> str:
@@ -185,6 +193,18 @@ def _least(options: Floats, q: Floats) -> Floats:
     travel = abs(options - q[..., None, :]).sum(axis=-1)
     best = np.where(np.isnan(travel), np.inf, travel).argmin(axis=-1)
     return np.take_along_axis(options, best[..., None, None], axis=-2)[..., 0, :]
+
+
+def _missing(tracks: Floats, row: int) -> Bools:
+    """Which rows a motion (motions, samples, rows, n) cannot take: those that are NaN, all rows
+    before the first sample where `row` exists, and all others at this sample.
+    """
+    missing: Bools = np.any(np.isnan(tracks), axis=-1)
+    started = np.cumsum(~missing[..., row, None], axis=1)
+    other = np.arange(tracks.shape[-2]) != row
+    first: Bools = np.cumsum(started > 0, axis=1) == 1
+    missing |= (started == 0) | first & other
+    return missing
 
 
 def _chooser(arm: Arm) -> Callable[[Floats, Floats], Floats]:
