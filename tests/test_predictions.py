@@ -13,7 +13,7 @@ from playwright.sync_api import expect
 
 from robokin import IRB140, deg
 from robokin.course import book
-from robokin.course.predictions import ASLEEP, Asked
+from robokin.course.predictions import ASLEEP, UNGUESSED, Asked
 from robokin.course.questions import Option, Prediction, filled
 from robokin.show import animate, figure
 
@@ -222,7 +222,7 @@ def test_a_view_can_be_a_figure_or_a_player(opened):
     fig = figure("An empty figure with a long alternative text for the reader.", 6, 2)
     for made in (fig, animate(IRB140, t, q, title="A turn")):
         page = opened(Asked("made.p1", words(lambda made=made: made), None))
-        assert page.locator("img, canvas").count() == 0
+        assert page.locator("img, canvas").filter(visible=True).count() == 0
         page.get_by_label("b)").check()
         guess(page).click()
         if made is fig:
@@ -241,6 +241,63 @@ def test_page_without_scripts_shows_the_question(opened):
     text = seen(page)
     assert "It is 6.2 now." in text and "c) half as much" in text and ASLEEP in text
     assert "view opens" not in text and REASON not in text
+
+
+def moving():
+    t = np.linspace(0, 2, 41)
+    q = t[:, None] * deg * np.array([45, 30, -30, 20, 10, 5])
+    return animate(IRB140, t, q, title="A turn")
+
+
+@pytest.mark.parametrize("asked", [words(moving), TYPED], ids=["letters", "number"])
+def test_answer_opens_without_a_guess_and_a_guess_may_follow(opened, asked):
+    """The second control reports nothing, and it is there again for "Ask me again"."""
+    asked = Asked("made.p1", asked, None)
+    page = opened(asked)
+    page.get_by_text(UNGUESSED).focus()
+    page.keyboard.press("Enter")
+    awake(page)
+    right = asked.options[asked.right]
+    assert right.reason in seen(page) and "your guess" not in seen(page)
+    assert page.evaluate("localStorage.length") == 0 and page.get_by_role(
+        "status"
+    ).all_inner_texts() == [""]
+    if asked.unit is None:
+        page.locator(".rk-scene").wait_for()
+        page.get_by_label("c)").check()
+    else:
+        page.get_by_label("your guess").fill("100")
+    guess(page).click()
+    assert seen(page).count(right.reason) == 1 and "Not so" in seen(page)
+    assert not page.get_by_text(UNGUESSED).is_visible()
+    assert page.locator(".rk-scene").count() == (asked.unit is None), "the view has moved"
+    page.get_by_role("button", name="Ask me again").click()
+    assert right.reason not in seen(page) and page.get_by_text(UNGUESSED).is_visible()
+
+
+@pytest.mark.parametrize("scripts", [True, False])
+def test_answer_and_picture_are_printed(opened, scripts):
+    page = opened(Asked("made.p1", words(moving), None), java_script_enabled=scripts)
+    picture = page.locator("img")
+    assert not picture.is_visible() and not page.get_by_text(REASON).is_visible()
+    page.emulate_media(media="print")
+    assert picture.is_visible() and page.get_by_text(REASON).is_visible()
+    assert page.get_by_text("half as much").is_visible()
+
+
+def test_answer_opens_without_scripts(opened):
+    page = opened(Asked("made.p1", words(moving), None), java_script_enabled=False)
+    page.get_by_text(UNGUESSED).click()
+    assert page.locator("img").is_visible() and REASON in seen(page)
+    html = Asked("made.p1", words(moving), None).html
+    assert html.count(moving().text) == 1 and html.count("data:image/png") == 1
+
+
+def test_a_question_with_a_choice_has_no_second_control(opened):
+    page = opened(Asked("made.p1", words(moving), "a"))
+    awake(page)
+    assert page.get_by_text(UNGUESSED).count() == 0 and page.locator(".rk-scene").is_visible()
+    assert seen(page).count(REASON) == 1
 
 
 def test_markup_is_escaped(opened):

@@ -82,9 +82,11 @@ def again(text: str, nonce: str, choices: Mapping[str, str] | None = None) -> Ma
     if MARK not in text:
         return None
     try:
-        call = CALL.search(text)
-        if call is None:
+        calls = list(CALL.finditer(text))
+        if not calls:
             return LEFT_OUT
+        # A question contains the output that answers it, with a call of its own.
+        call = next((each for each in calls if each[1] == ASK), calls[0])
         data = json.loads(call[2], parse_constant=_refused, object_hook=_ordinary)
         if call[1] == ASK:
             return Markup(quiet(_question(data, nonce, choices)))

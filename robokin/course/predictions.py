@@ -22,6 +22,8 @@ ASLEEP = (
     "Trust Notebook)."
 )
 
+UNGUESSED = "Show the answer without a guess"
+
 
 @functools.cache
 def worked_out(name: str) -> tuple[str, list[Option], int]:
@@ -46,7 +48,7 @@ def chosen(name: str, choice: str) -> str:
 
 def predict(name: str, choice: str | float | None = None) -> "Asked":
     """Show a question to answer before you look, such as "irb140_motion.p2". The view that answers
-    it opens in the page after the choice, without a kernel.
+    it opens in the page after the choice, or without one, and without a kernel.
 
     choice  the letter of an answer, or a number if one is wanted. With it the output shows
             question, choice and reason, and the report finds it.
@@ -75,7 +77,6 @@ class Asked:
             "unit": self.unit,
             "within": prediction.within,
             "choice": None if choice is None else str(choice),
-            "view": "",
         }
         text = json.dumps(self.data, ensure_ascii=False)
         self.id = hashlib.sha256(text.encode()).hexdigest()[:12]
@@ -101,9 +102,15 @@ class Asked:
         """The HTML for a page whose policy permits only scripts with this nonce."""
         from ..show.markup import inert, output
 
-        data = self.data | {"view": shown(self.view(), nonce)}
         words = "".join(map(paragraph, repr(self).split("\n")[1:]))
-        return output("prediction.ask", self.id, inert(data), f"{words}<p>{ASLEEP}</p>", nonce)
+        view = f'<div class="robokin-view">{shown(self.view(), nonce)}</div>'
+        if self.at is None:
+            view = (
+                f'<details class="robokin-unguessed"><summary>{UNGUESSED}</summary>'
+                f"{paragraph(self._right())}{view}</details>"
+            )
+        still = f"{words}<p>{ASLEEP}</p>{view}"
+        return output("prediction.ask", self.id, inert(self.data), still, nonce)
 
     def save(self, path: str | os.PathLike[str]) -> None:
         """Write one self-contained page, whole or not at all. ValueError: not a .html file, or an
@@ -135,11 +142,16 @@ class Asked:
                 lines.append(
                     f"Not so: {mine.confusion}. {mine.reason}" if self.at >= 0 else "Not so."
                 )
-                letter = "" if self.unit else f"{LETTERS[self.right]}) "
-                text = right.text if self.unit is None else with_unit(right.text, self.unit)
-                end = "" if text.endswith((".", "!", "?")) else "."
-                lines.append(f"Right is {letter}{text}{end} {right.reason}")
+                lines.append(self._right())
         return "\n".join(lines)
+
+    def _right(self) -> str:
+        """The right answer and the reason for it."""
+        right = self.options[self.right]
+        letter = "" if self.unit else f"{LETTERS[self.right]}) "
+        text = right.text if self.unit is None else with_unit(right.text, self.unit)
+        end = "" if text.endswith((".", "!", "?")) else "."
+        return f"Right is {letter}{text}{end} {right.reason}"
 
 
 def with_unit(text: str, unit: str) -> str:

@@ -381,7 +381,8 @@ class PageAnswer(TypedDict):
 
 class PageQuestion(TypedDict):
     """The data of a prediction. `unit` and `within` (a fraction) belong to a number to type.
-    `choice`: the choice in the notebook, if any. `view`: the HTML that opens after the choice.
+    `choice`: the choice in the notebook, if any. The view that answers the question is not part of
+    the data: it is HTML of the page.
     """
 
     name: str
@@ -392,4 +393,3 @@ class PageQuestion(TypedDict):
     unit: str | None
     within: float
     choice: str | None
-    view: str

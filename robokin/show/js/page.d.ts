@@ -436,7 +436,6 @@ export interface PageQuestion {
   unit: string | null;
   within: number;
   choice: string | null;
-  view: string;
 }
 
 export interface ElbowData {

@@ -26,6 +26,9 @@ class Prediction {
     this.root = root;
     this.data = data;
     this.memory = memoryOf(root);
+    // A question inside the view of another one has its own.
+    this.view = root.querySelector(":scope > .robokin-view, :scope > details > .robokin-view");
+    this.unguessed = root.querySelector(":scope > .robokin-unguessed");
     this.kept = element("p", {role: "status"});
     this.answer = element("div", {class: "rk-answer", "aria-live": "polite"});
     this.guess = control("button", {type: "button", disabled: ""}, "This is my guess");
@@ -44,6 +47,7 @@ class Prediction {
         element("fieldset", {}, element("legend", {}, ...coded(data.question)), ...this.rows),
         this.asking,
         this.answer,
+        ...(this.unguessed ? [this.unguessed] : []),
       ),
     );
     this.listen();
@@ -100,8 +104,9 @@ class Prediction {
       });
     this.answer.replaceChildren(
       ...told(data, at, right).map(text => element("p", {}, ...coded(text))),
-      ...(data.view ? [view(data.view)] : []),
+      ...(this.view ? [this.view] : []),
     );
+    this.unguessed?.setAttribute("hidden", "");
     this.guess.hidden = true;
     this.again.hidden = data.choice !== null;
   }
@@ -114,6 +119,8 @@ class Prediction {
       row.classList.remove("rk-right", "rk-wrong");
       row.querySelector("b")?.remove();
     }
+    if (this.view) this.unguessed?.append(this.view);
+    for (const name of ["hidden", "open"]) this.unguessed?.removeAttribute(name);
     this.answer.replaceChildren();
     this.kept.textContent = "";
     [guess.hidden, guess.disabled, again.hidden, clear.hidden] = [false, true, true, true];
@@ -267,12 +274,6 @@ function line(made, own) {
     .map(([name, choice]) => `${name.slice(lab.length)} ${choice.split(":")[0]}`);
   return `report(who, guesses="${said.join(", ")}")`;
 }
-
-/**
- * Inserts HTML so that the scripts of a player or an explorer run.
- * @param {string} html
- */
-const view = html => element("div", {}, document.createRange().createContextualFragment(html));
 
 /** @type {Record<string, string>} */
 const page = (Object(globalThis).robokinGuesses ??= {}); // the guesses, if there is no storage
