@@ -74,7 +74,7 @@ export function stageOf(root, data) {
 export function frameOf(root, data, picture) {
   const {canvas, camera} = picture,
     handles = handleLayer(canvas, camera, picture.hold, changed);
-  const parts = partsOf(data, canvas, handles.layer);
+  const parts = partsOf(data, canvas, [handles.layer, handles.chooser]);
   /** @type {Seen} */
   let seen;
   let stale = true,
@@ -120,11 +120,11 @@ export function frameOf(root, data, picture) {
  * The elements of a frame.
  * @param {{kind: string, title: string, meant: string}} data
  * @param {HTMLCanvasElement} canvas
- * @param {HTMLElement} layer  the layer of handles
+ * @param {HTMLElement[]} handles  the layer of handles and their chooser
  */
-function partsOf({kind, title: text, meant}, canvas, layer) {
+function partsOf({kind, title: text, meant}, canvas, handles) {
   const title = element("div", {class: "rk-title"}, text),
-    space = element("div", {class: "rk-space"}, canvas, layer);
+    space = element("div", {class: "rk-space"}, canvas, ...handles);
   const side = element("div", {class: "rk-side"}),
     below = element("div", {class: "rk-below"});
   const hint = folded(meant);
