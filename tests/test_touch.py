@@ -234,6 +234,7 @@ def test_a_switch_chooses_the_handles_where_there_is_no_room_for_all(opened, pho
     every = set(wide.look().handles)
     assert len(every) > 5 and not wide.rk.locator(".rk-chooser").is_visible()
     shown = opened(EXPLORERS[kind](), IRB140, within=phone)
+    assert len(shown.look().handles) <= 4, "all stand, and cover each other"
     names = shown.rk.locator(".rk-chooser button")
     seen = []
     for name in names.all():
