@@ -1,7 +1,8 @@
 // The clock of a motion: a button, a time slider, a menu of playback speeds, and the Space key.
 
 import {number} from "./canvas.js";
-import {choice, control, element, range} from "./elements.js";
+import {choice, control, element} from "./elements.js";
+import {range} from "./sliders.js";
 
 const PLAY = "M3 1.5v11l9-5.5z",
   PAUSE = "M3 1.5h3v11H3zM8 1.5h3v11H8z";

@@ -53,11 +53,3 @@ export const choice = (name, texts) =>
     {"aria-label": name},
     ...texts.map((text, i) => element("option", {value: i}, text)),
   );
-
-/**
- * A slider over integers from 0.
- * @param {string} name
- * @param {number} most
- */
-export const range = (name, most) =>
-  control("input", {type: "range", min: 0, max: most, step: 1, value: 0, "aria-label": name});

@@ -2,25 +2,25 @@
 // not scroll the page, the keyboard reaches it, and it has a name.
 
 import {cross, dot, frames, origin, plus, turned} from "./kinematics.js";
+import {handleChooser, large} from "./chooser.js";
 import {element, control} from "./elements.js";
 
 /** @import {PageLink} from "./page.js" */
 /** @import {Color, Pixel, Point} from "./canvas.js" */
 /** @import {Camera} from "./camera.js" */
 
-const NEAR = 12; // px: smallest distance of a handle from the edge of the scene
-
 /**
  * The distance in metres between a thing and the arrows and arcs that move it, for a camera. In
  * pixels it is the same at every scale.
  * @param {Camera} camera
  */
-export const reachOf = camera => (matchMedia("(pointer: coarse)").matches ? 84 : 60) / camera.scale;
+export const reachOf = camera => (large() ? 84 : 60) / camera.scale;
 
 /** @typedef {(dx: number, dy: number) => void} Drag  called with the motion of a pointer in px */
 /**
  * @typedef {object} Handle
  * @property {string} id
+ * @property {string} [group]  the handles that stand together where there is no room for all
  * @property {string} name  its name for a screen reader: "target along x"
  * @property {string} look  the class of the button: rk-free, rk-arrow, rk-arc or rk-joint
  * @property {string} [mark]  a letter on it
@@ -52,7 +52,8 @@ export const reachOf = camera => (matchMedia("(pointer: coarse)").matches ? 84 :
  * @param {() => void} changed  called when something has moved
  */
 export function handleLayer(canvas, camera, hold, changed) {
-  const layer = element("div", {class: "rk-handles"});
+  const layer = element("div", {class: "rk-handles"}),
+    chooser = handleChooser(changed);
   /** @type {Shown[]} */
   let handles = [];
   /** @type {?string} */
@@ -69,8 +70,10 @@ export function handleLayer(canvas, camera, hold, changed) {
 
   return {
     layer,
+    chooser: chooser.row,
     /** @param {Handle[]} next */
     set(next) {
+      chooser.set(next.map(({group = ""}) => group));
       handles = next.map(handle => ({...handle, node: button(handle, hand), shift: [0, 0]}));
       layer.replaceChildren(...handles.map(handle => handle.node));
     },
@@ -78,9 +81,13 @@ export function handleLayer(canvas, camera, hold, changed) {
     place() {
       /** @type {Pixel[]} */
       const taken = [];
+      chooser.update(canvas.clientWidth);
+      for (const {node, group = ""} of handles) node.hidden = !chooser.stands(group);
       // The grabbed handle keeps its offset, so that it stays under the pointer; the others make
       // room.
-      const first = [...handles].sort((a, b) => Number(b.id === held) - Number(a.id === held));
+      const first = handles
+        .filter(({node}) => !node.hidden)
+        .sort((a, b) => Number(b.id === held) - Number(a.id === held));
       for (const handle of first)
         taken.push(placed(handle, camera(), handle.id === held ? null : taken, canvas));
     },
@@ -134,8 +141,8 @@ function button(handle, {camera, hold, changed}) {
 }
 
 /**
- * Puts a button at the place of its handle. A handle outside the scene is shown at its edge and can
- * still be dragged.
+ * Puts a button at the place of its handle, wholly inside the scene: a handle beyond its edge is at
+ * the edge, and can still be dragged.
  * @param {Shown} handle
  * @param {Camera} camera
  * @param {?Pixel[]} taken  the places to keep away from; null if it is held
@@ -145,14 +152,22 @@ function placed(handle, camera, taken, canvas) {
   const {node, name, at, value, shift} = handle,
     p = at(camera),
     place = camera.to(p),
-    room = matchMedia("(pointer: coarse)").matches ? 40 : 25;
+    {clientWidth: width, clientHeight: height} = canvas,
+    [half, room] = large() ? [22, 40] : [13, 25];
+  /** @type {(place: Pixel) => Pixel} */
+  const inside = ([x, y]) => [
+    Math.min(Math.max(x, half), width - half),
+    Math.min(Math.max(y, half), height - half),
+  ];
   node.hidden = !p.every(Number.isFinite);
   /** @type {Pixel} */
-  const [x, y] = taken ? apart(place, taken, room) : [place[0] + shift[0], place[1] + shift[1]];
+  const [x, y] = taken
+    ? apart(place, taken, room, inside)
+    : [place[0] + shift[0], place[1] + shift[1]];
   handle.shift = [x - place[0], y - place[1]];
-  const left = Math.min(Math.max(x, NEAR), canvas.clientWidth - NEAR),
-    top = Math.min(Math.max(y, NEAR), canvas.clientHeight - NEAR);
-  node.classList.toggle("rk-outside", left !== x || top !== y);
+  const [left, top] = inside([x, y]);
+  const seen = place[0] > 0 && place[0] < width && place[1] > 0 && place[1] < height;
+  node.classList.toggle("rk-outside", !seen);
   node.style.transform = `translate(${left.toFixed(1)}px, ${top.toFixed(1)}px)`;
   const says = `${name}, ${value()}`;
   if (node.getAttribute("aria-label") !== says) node.setAttribute("aria-label", says);
@@ -163,19 +178,21 @@ function placed(handle, camera, taken, canvas) {
 const STEPS = {ArrowLeft: [-1, 0], ArrowRight: [1, 0], ArrowUp: [0, 1], ArrowDown: [0, -1]};
 
 /**
- * A place at least `room` pixels away from the places already taken.
+ * A place inside the scene and at least `room` pixels away from the places already taken.
  * @param {Pixel} place
  * @param {Pixel[]} taken
  * @param {number} room
+ * @param {(place: Pixel) => Pixel} inside  moves a place into the scene
  * @returns {Pixel}
  */
-function apart([x, y], taken, room) {
+function apart(place, taken, room, inside) {
+  let [x, y] = inside(place);
   for (let i = 0; i < 8; i++) {
     const near = taken.find(([a, b]) => (x - a) ** 2 + (y - b) ** 2 < 0.98 * room * room);
     if (!near) break;
     const [dx, dy] = [x - near[0] || 1, y - near[1] || i - 3],
       length = Math.sqrt(dx * dx + dy * dy);
-    [x, y] = [near[0] + (room * dx) / length, near[1] + (room * dy) / length];
+    [x, y] = inside([near[0] + (room * dx) / length, near[1] + (room * dy) / length]);
   }
   return [x, y];
 }

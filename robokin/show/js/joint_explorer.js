@@ -92,7 +92,9 @@ const limited = ([low, high], value) => Math.min(Math.max(value, low), high);
 function jointHandle({arm, words, units, controls, q: home}, state, j) {
   const {size, name} = units[j],
     step = controls[j].step * size,
-    small = arm.chain[j].prismatic ? 1e-3 : 0.01;
+    small = arm.chain[j].prismatic ? 1e-3 : 0.01,
+    count = arm.chain.length,
+    half = Math.ceil(count / 2);
   /** @type {(value: number) => void} */
   const set = value => {
     state.q[j] = limited(arm.limits[j], value);
@@ -107,6 +109,7 @@ function jointHandle({arm, words, units, controls, q: home}, state, j) {
     );
   return {
     id: `q${j + 1}`,
+    group: fill(words.rings, j < half ? {first: 1, last: half} : {first: half + 1, last: count}),
     name: fill(words.takeJoint, {joint: j + 1}),
     look: "rk-joint",
     mark: String(j + 1),

@@ -5,13 +5,14 @@
 import {fill} from "./blanks.js";
 import {number} from "./canvas.js";
 import {copyButton} from "./copy.js";
-import {control, element, range, waiting} from "./elements.js";
+import {control, element, waiting} from "./elements.js";
 import {inScreen} from "./handles.js";
 import {fk, origin} from "./kinematics.js";
 import {least} from "./levers.js";
 import {kernelOf, joinArrays} from "./live.js";
 import {cubeView, facesOf} from "./plan_cube.js";
 import {armAt} from "./plan_picture.js";
+import {range} from "./sliders.js";
 import {menu, slider, stageOf, tick} from "./stage.js";
 import {point} from "./mark.js";
 

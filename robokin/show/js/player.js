@@ -7,8 +7,9 @@ import {broken, motionsOf, pastNow, tipOf} from "./motions.js";
 import {orbit, sceneCanvas, scrubbing} from "./controls.js";
 import {pictures} from "./pictures.js";
 import {clockRow, runningClock} from "./clock.js";
-import {choice, control, element, range, waiting} from "./elements.js";
+import {choice, control, element, waiting} from "./elements.js";
 import {numberTable} from "./player_table.js";
+import {range} from "./sliders.js";
 
 /** @import {Page} from "./page.js" */
 /** @import {Panel} from "./panel.js" */

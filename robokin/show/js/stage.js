@@ -7,6 +7,7 @@ import {orbit, sceneCanvas} from "./controls.js";
 import {pictures} from "./pictures.js";
 import {control, element} from "./elements.js";
 import {handleLayer} from "./handles.js";
+import {range} from "./sliders.js";
 
 /** @import {Control, PageExplorer} from "./page.js" */
 /** @import {Context} from "./canvas.js" */
@@ -73,7 +74,7 @@ export function stageOf(root, data) {
 export function frameOf(root, data, picture) {
   const {canvas, camera} = picture,
     handles = handleLayer(canvas, camera, picture.hold, changed);
-  const parts = partsOf(data, canvas, handles.layer);
+  const parts = partsOf(data, canvas, [handles.layer, handles.chooser]);
   /** @type {Seen} */
   let seen;
   let stale = true,
@@ -119,11 +120,11 @@ export function frameOf(root, data, picture) {
  * The elements of a frame.
  * @param {{kind: string, title: string, meant: string}} data
  * @param {HTMLCanvasElement} canvas
- * @param {HTMLElement} layer  the layer of handles
+ * @param {HTMLElement[]} handles  the layer of handles and their chooser
  */
-function partsOf({kind, title: text, meant}, canvas, layer) {
+function partsOf({kind, title: text, meant}, canvas, handles) {
   const title = element("div", {class: "rk-title"}, text),
-    space = element("div", {class: "rk-space"}, canvas, layer);
+    space = element("div", {class: "rk-space"}, canvas, ...handles);
   const side = element("div", {class: "rk-side"}),
     below = element("div", {class: "rk-below"});
   const hint = folded(meant);
@@ -228,17 +229,17 @@ function drawAids(g, camera, {chain, q, axes, ellipsoid}, size) {
  */
 export function slider({name, unit, low, high, step, decimals}, take) {
   const label = [name, unit].filter(Boolean).join(", ");
-  const range = control("input", {type: "range", min: low, max: high, step, "aria-label": label});
+  const track = range(label, high, low, step);
   const exact = control("input", {type: "number", step, "aria-label": `${label}, exactly`});
   const row = element(
     "div",
     {class: "rk-slide"},
     element("span", {}, name),
-    range,
+    track,
     exact,
     element("span", {}, unit),
   );
-  range.addEventListener("input", () => take(+range.value));
+  track.addEventListener("input", () => take(+track.value));
   let typing = false; // while true, `set` does not overwrite what is being typed
   exact.addEventListener("input", () => {
     typing = true;
@@ -256,8 +257,8 @@ export function slider({name, unit, low, high, step, decimals}, take) {
     /** @param {number} value */
     set(value) {
       const text = String(+value.toFixed(decimals));
-      range.value = String(value);
-      range.setAttribute("aria-valuetext", `${number(value, decimals)} ${unit}`.trim());
+      track.value = String(value);
+      track.setAttribute("aria-valuetext", `${number(value, decimals)} ${unit}`.trim());
       if (!typing && exact.value !== text) exact.value = text;
     },
   };

@@ -57,6 +57,7 @@ function freeHandle(held, name) {
   return {
     ...common(held, name),
     id: name,
+    group: data.words.ringsFree,
     name: fill(data.words.takeStation, {name}),
     look: "rk-free",
     at: () => state[name].place,
@@ -81,6 +82,7 @@ function alongHandle(held, k) {
   return {
     ...common(held, "via"),
     id: `via ${AXES[k]}`,
+    group: data.words.ringsVia,
     name: fill(data.words.takeVia, {axis: AXES[k]}),
     look: "rk-arrow",
     mark: AXES[k],

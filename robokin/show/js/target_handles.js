@@ -69,6 +69,7 @@ function freeHandle(held) {
   };
   return {
     id: "free",
+    group: data.words.ringsMove,
     name: data.words.takeFree,
     look: "rk-free",
     at: () => state.place,
@@ -93,6 +94,7 @@ function alongHandle(held, k) {
   const {state, home, data, fine} = held;
   return {
     id: AXES[k],
+    group: data.words.ringsMove,
     name: fill(data.words.takeAlong, {axis: AXES[k]}),
     look: "rk-arrow",
     mark: AXES[k],
@@ -129,6 +131,7 @@ function turnHandle({state, home, data}, k) {
   };
   return {
     id: `turn ${AXES[k]}`,
+    group: data.words.ringsTurn,
     name: fill(data.words.takeTurn, {axis: AXES[k]}),
     look: "rk-arc",
     mark: "\u21BB",
@@ -160,6 +163,7 @@ function angleHandle({state, home, data}) {
   const place = (camera, x) => rim(state, camera, x, [1, 0, 0], [0, 1, 0]);
   return {
     id: "angle",
+    group: data.words.ringsTurn,
     name: data.words.takeAngle,
     look: "rk-arc",
     mark: "\u21BB",

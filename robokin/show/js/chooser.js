@@ -1,0 +1,55 @@
+// The choice of the handles that stand, for a scene without room for all of them.
+
+import {control, element} from "./elements.js";
+
+/** Whether handles and controls have the size of a finger. The style sheets have the same rule. */
+export const large = () => matchMedia("(pointer: coarse), (max-width: 699px)").matches;
+
+const ROOM = 520; // px: a narrower scene has no room for many large handles
+const FEW = 4; // handles that have room in every scene
+
+/**
+ * Buttons, one for each group of handles; the handles of the chosen group stand.
+ *
+ * set(groups)     the group of each handle
+ * update(width)   shows the buttons if a scene of this width needs them; call it before `stands`
+ * stands(group)   whether the handles of this group stand
+ *
+ * @param {() => void} changed  called when the reader has chosen
+ */
+export function handleChooser(changed) {
+  const row = element("div", {class: "rk-row rk-chooser"});
+  /** @type {string[]} */
+  let names = [];
+  let chosen = 0,
+    many = false;
+  row.hidden = true;
+  const tell = () =>
+    [...row.children].forEach((node, k) => node.setAttribute("aria-pressed", String(k === chosen)));
+  /** @type {(name: string, k: number) => HTMLElement} */
+  const button = (name, k) => {
+    const node = control("button", {type: "button", class: "rk-word"}, name);
+    node.addEventListener("click", () => {
+      chosen = k;
+      tell();
+      changed();
+    });
+    return node;
+  };
+  return {
+    row,
+    /** @param {string[]} groups */
+    set(groups) {
+      names = [...new Set(groups)];
+      many = groups.length > FEW && names.length > 1;
+      row.replaceChildren(...names.map(button));
+      tell();
+    },
+    /** @param {number} width */
+    update(width) {
+      row.hidden = !(many && width < ROOM && large());
+    },
+    /** @param {string} group */
+    stands: group => row.hidden || group === names[chosen],
+  };
+}
