@@ -58,7 +58,7 @@ def representative(arm: Arm, q: ArrayLike) -> Floats:
 
 
 def unwrapped(arm: Arm, q: ArrayLike, near: ArrayLike) -> Floats:
-    """For each revolute joint the value q + 2 pi k nearest to `near`. Both are (..., n) and
+    """For each revolute joint the value q + 2 pi k nearest to `near`. Both are (..., n) and are
     broadcast.
     """
     n = len(instance(arm, Arm, "arm").links)

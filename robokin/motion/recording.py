@@ -21,7 +21,7 @@ from ..arms.branches import SLACK
 from .derivatives import differentiate, rising
 
 LEAP = 0.002  # rad or m: a smaller change is never a jump in position
-FEW = 8  # with fewer changes in speed, the noise level is unknown
+FEW = 8  # with fewer changes in speed than this, the noise level is unknown
 # a jump: index of its motion, first and last sample, time, and the values (n,) before and after it
 Found: TypeAlias = tuple[int, int, int, float, Floats, Floats]
 

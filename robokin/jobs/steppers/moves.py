@@ -13,7 +13,7 @@ from ...units import deg, wrapped
 
 LIMIT = 500.0  # pulses per second, the greatest frequency. Source: 003, paper 1, (8)
 SAMPLES = 1001  # number of postures along a straight line
-SLACK = 1e-9  # a position within this of a whole pulse counts as that pulse
+SLACK = 1e-9  # a position this close to a whole pulse counts as that pulse
 # greatest distance from zero in pulses; up to it a float represents every whole number exactly
 COUNTED = 2**52
 LISTED = 10_000_000  # greatest number of pulses that one call lists
