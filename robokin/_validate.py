@@ -28,7 +28,7 @@ def floats(value: Any, name: str, last: int | None = None, finite: bool = True) 
     """Return `value` as a float array. `last` is the required length of its last axis. ValueError:
     it is not such an array.
 
-    With `finite=False` NaN is accepted (it marks a row that does not exist) and infinity is not.
+    With `finite=False` NaN is accepted (it marks a row that does not exist), but infinity is not.
     The result may share memory with `value`: a caller that keeps it makes a copy.
     """
     array = _numbers(value, name)
@@ -37,7 +37,8 @@ def floats(value: Any, name: str, last: int | None = None, finite: bool = True) 
     if last is not None and (array.ndim == 0 or array.shape[-1] != last):
         raise ValueError(f"{name}: wanted shape (..., {last}), got {array.shape}")
     good = np.isfinite(array) if finite else ~np.isinf(array)
-    if np.count_nonzero(good) < array.size:  # for a few numbers, three times as fast as `all`
+    # for a few numbers this is three times as fast as `all`
+    if np.count_nonzero(good) < array.size:
         where = tuple(int(i) for i in np.argwhere(~good)[0])
         raise ValueError(f"{name}: wanted finite numbers, got {array[where]} at index {where}")
     return array
@@ -147,14 +148,14 @@ def instance(value: Any, kind: type[T], name: str, hint: str = "") -> T:
 
 def warn_if_degrees(angles: Floats, name: str, stacklevel: int = 3, posture: int = 0) -> None:
     """Warn (UserWarning) if angles that should be in radians are probably in degrees: one of them
-    exceeds two turns, or eight turns in a batch, which may be a motion that keeps turning.
+    exceeds two turns (eight turns in a batch, which may be a motion that keeps turning).
 
     posture  1 if the last axis holds the joints of one posture, 0 if the angles are independent
     """
     limit = TWO_TURNS if angles.ndim <= posture else 4 * TWO_TURNS
     far = abs(angles) > limit
     if np.count_nonzero(far):
-        text = f"{name}: {abs(angles[far]).max():.6g} rad is many turns; were degrees meant?"
+        text = f"{name}: {abs(angles[far]).max():.6g} rad is many turns; did you mean degrees?"
         warnings.warn(f"{text} (90 * deg)", UserWarning, stacklevel=stacklevel)
 
 

@@ -15,8 +15,8 @@ import numpy as np
 from ._arrays import ArrayLike, Floats, Sealed, components, sealed, stack
 from ._validate import broadcast, floats, instance, selected, shape_of, warn_if_degrees
 
-UNIT = 1e-6  # a length within this of 1 is accepted and normalised
-UPRIGHT = 1e-14  # a pitch within this of +-90 degrees counts as +-90 degrees
+UNIT = 1e-6  # a length that differs from 1 by at most this is accepted and normalised
+UPRIGHT = 1e-14  # a pitch this close to +-90 degrees counts as +-90 degrees
 CONJUGATE = np.array([1.0, -1.0, -1.0, -1.0])
 
 
@@ -107,9 +107,9 @@ class Quaternion(Batch):
         """The rotations of matrices (..., 3, 3). ValueError: a matrix that is not orthogonal to
         within 1e-6, or a reflection.
 
-        The matrix gives each product of two components, and so all four after a division by any one
-        of them. We divide by the largest (Shepperd 1978, J. Guidance and Control 1, p. 223), which
-        is at least 1/2.
+        The elements of the matrix give every product of two components. Dividing the four products
+        that contain one component by that component gives all four. We choose the largest (Shepperd
+        1978, J. Guidance and Control 1, p. 223), which is at least 1/2.
         """
         m = floats(matrix, "matrix", 3)
         if m.ndim < 2 or m.shape[-2] != 3:
@@ -267,7 +267,9 @@ def hamilton(a: Sequence[Any], b: Sequence[Any]) -> tuple[Any, Any, Any, Any]:
 
 
 def turned(q: Sequence[Any], v: Sequence[Any]) -> tuple[Any, ...]:
-    """The vector v (x, y, z) rotated by the quaternion q: q v q*, expanded to v + w t + u x t."""
+    """The vector v (x, y, z) rotated by the quaternion q: q v q* = v + w t + u x t, where u is the
+    vector part of q and t = 2 u x v.
+    """
     w, *u = q
     t = [2 * c for c in cross(u, v)]
     return tuple(v_ + w * t_ + c for v_, t_, c in zip(v, t, cross(u, t), strict=True))

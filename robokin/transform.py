@@ -109,9 +109,9 @@ class Transform(Batch):
         return Transform._of(back, -(back @ self.translation))
 
     def lerp(self, goal: "Transform", s: ArrayLike) -> "Transform":
-        """Interpolate from this pose (s = 0) to `goal` (s = 1): the origin on a straight line, the
-        rotation by `Quaternion.slerp`. `s` (...) is broadcast against both; outside [0, 1] the
-        motion continues. Source: 001, listing 7 (`Transform.lerp`).
+        """Interpolate from this pose (s = 0) to `goal` (s = 1): the origin moves on a straight
+        line, and the rotation follows `Quaternion.slerp`. `s` (...) is broadcast against both;
+        outside [0, 1] the motion continues. Source: 001, listing 7 (`Transform.lerp`).
         """
         instance(goal, Transform, "goal")
         share = floats(s, "s")

@@ -1,6 +1,6 @@
 """Units: multiply by a unit to get metres or radians, divide by it to convert back.
 
-Inside robokin, lengths are in metres and angles in radians. Lessons write ``352 * mm`` and
+Inside robokin, lengths are in metres and angles in radians. The labs write ``352 * mm`` and
 ``90 * deg``.
 """
 

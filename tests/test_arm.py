@@ -308,7 +308,7 @@ def test_prismatic_joint_moves_along_its_axis():
 
 def test_whole_turns_do_not_change_fk():
     q = RNG.uniform(-np.pi, np.pi, (50, 6))
-    with pytest.warns(UserWarning, match="q: .* rad is many turns; were degrees meant"):
+    with pytest.warns(UserWarning, match="q: .* rad is many turns; did you mean degrees"):
         a, b = IRB140.fk(q), IRB140.fk(q + 2 * np.pi * RNG.integers(-9, 10, q.shape))
     assert rotation_gap(a, b).max() < 1e-13 and position_gap(a, b).max() < 1e-13
 

@@ -71,7 +71,7 @@ def test_within_accepts_whole_turns(arm, shape):
 
 def test_within_accepts_the_limit_and_rejects_nan():
     assert within(IRB140, IRB140.limits.T).all()
-    with pytest.warns(UserWarning, match="q: 13.2645 rad .* were degrees meant"):
+    with pytest.warns(UserWarning, match="q: 13.2645 rad .* did you mean degrees"):
         assert within(IRB140, IRB140.limits[:, 1] + 2 * np.pi).all()
     past = IRB140.limits[:, 1] + 1e-6
     # the limits of these joints span a full turn or more
@@ -610,7 +610,7 @@ def test_representative_has_the_least_excess():
     T = PUMA560.fk([0.1, 0.2, 0.3, 0.4, -100.2 * deg, 0.5])
     rows = PUMA560.ik(T)
     row = int(np.nanargmin(abs(rows - [0.1, 0.2, 0.3, 0.4, -100.2 * deg, 0.5]).max(-1)))
-    assert "joint 5 stands at -100.2°, 0.2° past its limit of -100°" in explain(PUMA560, T, row)
+    assert "joint 5 is at -100.2°, 0.2° past its limit of -100°" in explain(PUMA560, T, row)
     assert np.isnan(representative(IRB140, np.full(6, np.nan))).all()
 
 
@@ -633,7 +633,7 @@ def test_unwrapped_takes_the_nearest_turn_and_keeps_prismatic_joints():
 
 
 def test_degrees_cause_a_warning_and_long_motions_do_not():
-    with pytest.warns(UserWarning, match="q: 90 rad is many turns; were degrees meant"):
+    with pytest.warns(UserWarning, match="q: 90 rad is many turns; did you mean degrees"):
         within(IRB140, [0, 90, 0, 0, 0, 0])
     with pytest.warns(UserWarning, match="q: 90 rad is many turns"):
         IRB140.frames([0, 90, 0, 0, 0, 0])

@@ -147,7 +147,7 @@ def test_player_works_in_jupyterlab(browser, jupyter, page, lab):
         page,
     )
     awake(page)
-    player = players.filter(has=page.get_by_label("playing speed")).first  # not an explorer
+    player = players.filter(has=page.get_by_label("playback speed")).first  # not an explorer
     player.scroll_into_view_if_needed()
     assert player.locator("img").count() == 0, "the still picture is still there"
     for slider in _sliders(player):
@@ -324,7 +324,7 @@ def test_keyboard_reaches_every_control(page, saved):
             if control.evaluate("element => element === document.activeElement")
         }
     assert len(reached) == controls.count()
-    for name in ("play", "time", "playing speed", "large panel", "numbers", "share", "law"):
+    for name in ("play", "time", "playback speed", "large panel", "numbers", "share", "law"):
         assert page.get_by_label(name, exact=True).count() == 1, f"wanted one control called {name}"
 
 

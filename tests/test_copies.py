@@ -722,9 +722,9 @@ def test_outcomes_match_the_files(school, capsys):
     assert main(command) == 0
     assert capsys.readouterr().out.splitlines() == [
         "tasks/task.json: no longer a lab; the file stays",
-        "one.ipynb: yours stays; the newer one is one.new.ipynb",
+        "one.ipynb: yours stays; the newer version is one.new.ipynb",
         "three.ipynb: new",
-        "two.ipynb: back, since there is a newer one",
+        "two.ipynb: restored, since there is a newer version",
         f"{school.folder}: 2 new, 1 kept; 0 unchanged",
     ]
     assert school.says("one.ipynb") == "# mine" and school.says("tasks/task.json") == "first"
@@ -998,7 +998,7 @@ def test_copied_lab_works_when_opened_and_is_not_marked_as_changed(browser, jupy
     jupyter.open(page, "student/00_start_here.ipynb")
     page.locator("div.robokin-player").first.wait_for()
     players = page.locator("div.robokin-player")
-    player = players.filter(has=page.get_by_label("playing speed")).first
+    player = players.filter(has=page.get_by_label("playback speed")).first
 
     def started():
         awake(page)  # repeatedly, since JupyterLab renders the lower cells later

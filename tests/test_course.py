@@ -523,7 +523,7 @@ def test_nearly_correct_answer_reports_its_error(lab):
 
 GENERAL = {
     "order of a product": lambda h, a: TIP @ (right(h, a) @ TIP.inverse()),
-    "inverse for the thing": lambda h, a: right(h, a).inverse(),
+    "inverse of the answer": lambda h, a: right(h, a).inverse(),
     "degrees for radians": lambda h, a: right(h, a * deg),
     "mm for m": lambda h, a: right(h / mm, a),
     "sign": lambda h, a: right(h, -a),
@@ -581,7 +581,7 @@ WRITTEN = {
     "element-wise product": ("a @ b", matrices, lambda a, b: a * b),
     "order of a product": ("a @ b", matrices, lambda a, b: b @ a),
     "transposed": ("a @ b", matrices, lambda a, b: (a @ b).T),
-    "inverse for the thing": (
+    "inverse of the answer": (
         "a @ b",
         matrices,
         lambda a, b: np.linalg.solve(b, np.linalg.inv(a)),

@@ -81,7 +81,7 @@ GENERAL = {
     "mm for m": lambda q, length, turn: IRB140.fk(q) @ gripper(length * mm, turn),
     "degrees for radians": lambda q, length, turn: IRB140.fk(q) @ gripper(length, turn * deg),
     "sign": lambda q, length, turn: IRB140.fk(q) @ gripper(length, -turn),
-    "inverse for the thing": lambda q, length, turn: by_chain(q, length, turn).inverse(),
+    "inverse of the answer": lambda q, length, turn: by_chain(q, length, turn).inverse(),
     "another kind or shape": lambda q, length, turn: by_chain(q, length, turn).translation,
 }
 

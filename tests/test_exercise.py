@@ -771,7 +771,7 @@ def count(n):
     mine = exercise(text, lambda rng: [(n,) for n in range(1, 20)], mistakes)
     assert check(mine, lambda n: n + n % 2).mistake == "one more"
     verdict = check(mine, lambda n: n // 3)
-    told = "(Of this exercise's mistakes 'stands' never ends.)"
+    told = "(These mistakes of the exercise never end: 'stands'.)"
     assert verdict.mistake is None and verdict.says[0].endswith(told)
 
 

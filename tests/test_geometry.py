@@ -269,9 +269,9 @@ def test_every_gap_and_singularity_has_a_sentence():
         assert isinstance(gap, Gap) and gap.words in said and gap.kind in SENTENCES
     assert "too near to axis 1" in explain(PUMA560, inside, 0)
     # The hint appears only if the pose in millimetres would be within reach.
-    assert "were millimetres meant" in explain(loader_arm(1, 0.5), (0, 1200, 0), 0)
-    assert "were millimetres meant" not in explain(loader_arm(1, 0.5), (0, 1900, 0), 0)
-    assert "were millimetres meant" in explain(SCARA, ScaraPose((300, 0, 100), 0.1), 0)
+    assert "did you mean millimetres" in explain(loader_arm(1, 0.5), (0, 1200, 0), 0)
+    assert "did you mean millimetres" not in explain(loader_arm(1, 0.5), (0, 1900, 0), 0)
+    assert "did you mean millimetres" in explain(SCARA, ScaraPose((300, 0, 100), 0.1), 0)
 
 
 def test_wrist_is_named_only_for_arms_with_a_wrist():
@@ -279,7 +279,7 @@ def test_wrist_is_named_only_for_arms_with_a_wrist():
         on_axis = arm.ik((0, 0, 1.2))
         assert arm.geometry.singularities(on_axis)["shoulder"].all()
         said = explain(arm, (0, 0, 1.2), 0)
-        assert "the point is in line with axis 1 (shoulder singularity)" in said
+        assert "the point is as near to axis 1 as it can be (shoulder singularity)" in said
         assert "wrist" not in said and "wrist" not in explain(arm, (9, 9, 9), 0)
 
 

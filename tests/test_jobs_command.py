@@ -323,7 +323,7 @@ def test_oddities_in_a_file_are_reported(tmp_path):
     assert run.returncode == 1 and "4 files: 3 solved, 1 skipped" in run.out
     said = dict(re.findall(r"Task (\w+)\.json.*?\n\t([^0-9].*)$", run.out, re.M))
     for name, words in (
-        ("degrees", "20 rad/s is more than two turns a second; were degrees meant?"),
+        ("degrees", "20 rad/s is more than two turns a second; did you mean degrees?"),
         ("keys", "warning: unknown keys, ignored: 'q', 'comment'"),
         ("low", "from p0 to pi[0] dips under the floor, down to z = -1.016 m"),
         ("twice", "T: given 2 times"),

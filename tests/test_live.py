@@ -69,7 +69,7 @@ def test_answer_and_drawing_match_the_plan():
             assert f"S = {known.cost / deg:.0f}°" in said["verdict"]
             assert f"{known.clearance.min() * 1000:.1f} mm" in said["verdict"]
         else:
-            assert said["verdict"] == "No: the arm stays."
+            assert said["verdict"] == "No: the arm does not move."
         ways.add(known.way)
     assert {"direct", "search", "none"} <= ways
 
@@ -310,7 +310,7 @@ def shows_what_python_says(tab):
         assert f"{known.cost / deg:.0f}" == S
         assert f"{known.clearance.min() * 1000:.1f}" == near
     else:
-        assert verdict == "No: the arm stays."
+        assert verdict == "No: the arm does not move."
     return known.way
 
 

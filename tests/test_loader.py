@@ -195,7 +195,7 @@ def test_unreachable_coordinates_get_a_reason():
     # the tolerance is 1e-12 of the reach
     assert out_of_reach(arm, (1, 0.5, -1.8e-12)) == [] and out_of_reach(arm, (1, 0.5, -2e-12))
     assert out_of_reach(arm, (1.9, 0, 0)) == [] and out_of_reach(arm, (0, 0, 0.5)) == []
-    assert "were millimetres meant" in explain(arm, (1200, 0, 300), 1)
+    assert "did you mean millimetres" in explain(arm, (1200, 0, 300), 1)
     assert "183.8 mm too near" in explain(arm, Transform(translation=(0.3, 0, 0.1)), 1)
 
 

@@ -432,7 +432,7 @@ def test_via_points_lie_around_the_first_obstacle_in_the_way(two_drawn):
 def test_plan_text_gives_the_number_of_the_obstacle():
     far = (-2.0, -2.0)
     for words, obstacle in (
-        ("Obstacle 2 lies on the base", (far, (0.05, 0))),
+        ("Obstacle 2 lies 50.0 mm from the base", (far, (0.05, 0))),
         ("The target lies 100.0 mm from obstacle 2", (far, (1.8, 0.7))),
         ("already 0.0 mm from obstacle 1", (KNOWN[3], far)),
         ("The direct way is clear: no obstacle is on it.", (far, far)),
@@ -692,8 +692,8 @@ KNOWN = ARM.points(Q0)
         ((2.5, 2.5), (1.5, 1.5), "farther than three levers"),
         ((0, 0), (1.5, 1.5), "not farther than one lever"),
         ((-1.97, 0.35), (1.5, 1.5), "gamma outside 0 to 180 degrees"),
-        ((1.8, 0.6), (0, 0), "on the base"),
-        ((1.8, 0.6), (0.05, -0.1), "on the base or 111.8 mm from it"),
+        ((1.8, 0.6), (0, 0), "lies 0.0 mm from the base"),
+        ((1.8, 0.6), (0.05, -0.1), "lies 111.8 mm from the base"),
         ((1.8, 0.6), (1.8, 0.6), "The target lies 0.0 mm from the obstacle"),
         ((1.8, 0.6), (1.8, 0.7), "The target lies 100.0 mm from the obstacle"),
         ((1.8, 0.6), KNOWN[3], "At the start lever AK is already 0.0 mm"),
@@ -718,7 +718,7 @@ def test_barely_kept_distance_is_accepted():
     target, H = (1.75, 0.5), (1.75, 0.75)
     at_start, direct = distances(ARM, Q0, H).min(), [Q0, ARM.least(target, Q0)[0]]
     for distance, obstacle, words in (
-        (0.5, (0.0, -0.5), "on the base or 500.0 mm"),
+        (0.5, (0.0, -0.5), "lies 500.0 mm from the base"),
         (at_start, H, "At the start lever AK is already"),
         (0.25, H, "The target lies 250.0 mm"),
     ):

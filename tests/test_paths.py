@@ -75,7 +75,7 @@ def test_ptp_between_postures_in_degrees_causes_a_warning(recwarn):
     ptp([0.0, -12.0], [12.0, 0.0], 0.5)
     assert not recwarn.list
     for ends, name in ((([0.0, 90.0], [1.0, 1.0]), "q0"), (([1.0, 1.0], [-90.0, 0.0]), "q1")):
-        with pytest.warns(UserWarning, match=f"{name}: 90 rad is many turns; were degrees meant"):
+        with pytest.warns(UserWarning, match=f"{name}: 90 rad is many turns; did you mean degrees"):
             ptp(*ends, 0.5)
 
 

@@ -694,7 +694,7 @@ def test_postures_in_degrees_cause_a_warning(recwarn):
     plot_postures(IRB140, np.full((5, 6), 13.0))  # a motion may turn many times
     assert not recwarn.list
     for q in ([0, 45, 0, 0, 0, 0], [[0, 0, 0, 0, 0, 0], [0, 90, 0, 0, 0, 0]]):
-        with pytest.warns(UserWarning, match="q: .* rad is many turns; were degrees meant"):
+        with pytest.warns(UserWarning, match="q: .* rad is many turns; did you mean degrees"):
             plot_postures(IRB140, q)
 
 

@@ -312,7 +312,7 @@ def test_roll_pitch_yaw_keep_their_digits_near_vertical_pitch(sign):
 
 
 def test_angles_in_degrees_cause_a_warning():
-    with pytest.warns(UserWarning, match=r"angle: 90 rad .* were degrees meant\? \(90 \* deg\)"):
+    with pytest.warns(UserWarning, match=r"angle: 90 rad .* did you mean degrees\? \(90 \* deg\)"):
         q = Quaternion.from_angle_axis(90, (0, 0, 1))
     assert q.wxyz[0] == np.cos(45)
     with pytest.warns(UserWarning, match="angle: 90 rad"):

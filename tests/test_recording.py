@@ -593,13 +593,13 @@ def test_recordings_have_a_repr_and_can_be_pickled(motions):
 def test_motion_in_degrees_causes_a_warning():
     t = np.linspace(0, 1, 50)
     q = np.linspace([90, 0, 0, 0, 0, 0], [100, 10, 0, 0, 0, 0], 50)
-    with pytest.warns(UserWarning, match="q: 90 rad is many turns; were degrees meant"):
+    with pytest.warns(UserWarning, match="q: 90 rad is many turns; did you mean degrees"):
         record(IRB140, t, q)
 
 
 def test_motion_in_degrees_from_home_causes_a_warning():
     q = np.linspace(np.zeros(6), [90, 0, 0, 0, 0, 0], 50)
-    with pytest.warns(UserWarning, match="were degrees meant"):
+    with pytest.warns(UserWarning, match="did you mean degrees"):
         record(IRB140, np.linspace(0, 1, 50), q)
     with pytest.warns(UserWarning, match="q: 13 rad is many turns"):
         record(IRB140, np.linspace(0, 1, 50), np.full((50, 6), -13.0) * [1, 0, 0, 0, 0, 0])

@@ -214,5 +214,5 @@ def test_invalid_races_are_refused():
     dice = random_choice(5)
     with pytest.raises(ValueError, match="methods: wanted each function only once, got {'one'"):
         race({"one": dice, "two": dice}, ARMS["equal"], K, before[0])
-    with pytest.warns(UserWarning, match="were degrees meant"):
+    with pytest.warns(UserWarning, match="did you mean degrees"):
         pseudo_inverse(ARMS["equal"], K[0], before[0] / deg)

@@ -128,7 +128,7 @@ def test_report_works_from_a_file(hostile, browser, tmp_path):
     assert "It is $\\nonsense$." in page.locator("main").inner_text(), "as it was typed"
     head = page.locator(".rk-report")
     assert "Ada Lovelace" in head.inner_text() and "A hostile lab" in head.inner_text()
-    player = page.locator("div.robokin-player", has=page.get_by_label("playing speed")).first
+    player = page.locator("div.robokin-player", has=page.get_by_label("playback speed")).first
     player.scroll_into_view_if_needed()
     arm = player.locator("canvas").first
     before = arm.screenshot()

@@ -123,7 +123,7 @@ def test_explain_states_each_reason():
     assert "400.0 mm too near to the base" in explain(arm, (0.1, 0), 1)
     assert "1.0 mm off the plane" in explain(arm, (1, 0, 1e-3), 0)
     assert "is usable: it is inside every limit and not singular" in explain(arm, (1, 1), 0)
-    assert "were millimetres meant" in explain(arm, (1200, 0), 0)
+    assert "did you mean millimetres" in explain(arm, (1200, 0), 0)
     assert "stretched or folded" in explain(arm, Transform(translation=(0, 2.5, 0)), 0)
 
 

@@ -1251,8 +1251,8 @@ def test_unknown_keys_are_listed_in_the_report(tmp_path):
 def test_speeds_that_are_probably_in_degrees_cause_a_warning():
     fast = make(speeds=(0.2, 20, 0.2))
     assert report(fast, visit(fast)).endswith(
-        "\n\twarning: q' = [0.2, 20.0, 0.2]: 20 rad/s is more than two turns a second; were "
-        "degrees meant?"
+        "\n\twarning: q' = [0.2, 20.0, 0.2]: 20 rad/s is more than two turns a second; did "
+        "you mean degrees?"
     )
     still = make(speeds=(4 * np.pi,) * 3)
     assert "warning" not in report(still, visit(still))

@@ -113,7 +113,7 @@ class Arm(Sealed):
         """The flange in base coordinates: q (..., n) -> Transform of shape (...). NaN rows give NaN
         poses.
 
-        A UserWarning if a joint has made many turns: the angles are probably in degrees.
+        It warns (UserWarning) if a joint has made many turns: the angles are probably in degrees.
         """
 
         def flange(joints: Sequence[Any]) -> list[Any]:

@@ -23,8 +23,8 @@ SLACK = 1e-9  # a joint past its limit by no more than this counts as being at i
 def within(arm: Arm, q: ArrayLike) -> Bools:
     """Which joints of the posture q (..., n) are within their limits: bool (..., n).
 
-    A revolute joint is inside if q + 2 pi k is inside for some whole number k. NaN is outside. A
-    UserWarning if an angle is many turns: it is probably in degrees.
+    A revolute joint is inside if q + 2 pi k is inside for some whole number k. NaN is outside. It
+    warns (UserWarning) if an angle is many turns: it is probably in degrees.
 
     >>> from robokin import IRB140, deg, within
     >>> within(IRB140, np.array([0, 120, 0, 0, 0, 390]) * deg)
@@ -58,7 +58,7 @@ def representative(arm: Arm, q: ArrayLike) -> Floats:
 
 
 def unwrapped(arm: Arm, q: ArrayLike, near: ArrayLike) -> Floats:
-    """For each revolute joint the value q + 2 pi k nearest to `near`. Both are (..., n) and
+    """For each revolute joint the value q + 2 pi k nearest to `near`. Both are (..., n) and are
     broadcast.
     """
     n = len(instance(arm, Arm, "arm").links)

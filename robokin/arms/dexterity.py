@@ -22,10 +22,10 @@ def singular_values(arm: Arm, q: ArrayLike) -> Floats:
     """The singular values of the Jacobian at q (..., n) in descending order: the semi-axes of the
     ellipsoid of tool velocities for joint speeds of norm 1. NaN in, NaN out.
 
-    Lengths are divided by the arm's reach (`Arm.reach`), so the values have no unit. Only the rows
-    of the arm's task count: the position of the tool for arms with up to three joints, otherwise
-    position and orientation; of these only the rows that the arm can change at all. Source:
-    Siciliano et al., Robotics, 2009, section 3.9 (kinematic manipulability).
+    Lengths are divided by the arm's reach (`Arm.reach`), so the values have no unit. We use only
+    the rows of the arm's task (the position of the tool for arms with up to three joints, otherwise
+    position and orientation), and of these only the rows that the arm can change. Source: Siciliano
+    et al., Robotics, 2009, section 3.9 (kinematic manipulability).
     """
     instance(arm, Arm, "arm")
     jacobian = _scaled(arm, q)[..., movable(arm), :]

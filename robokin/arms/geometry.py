@@ -21,8 +21,8 @@ from .link import Link
 from .verdicts import SENTENCES
 
 ROUNDING = 1e-12  # a point past a border by no more than this counts as on it
-STRAIGHT = 1e-14  # an arm this near to stretched or folded has two equal elbow rows
-# nearer to axis 1 than this, the angle of joint 1 is rounding noise, so the joint is free
+STRAIGHT = 1e-14  # an arm this close to being stretched or folded has two equal elbow rows
+# if the point is nearer to axis 1 than this, the angle of joint 1 is noise: the joint is free
 FREE = 1e-13
 SINGULAR = 1e-6  # rad, or fraction of reach: a posture this near a singularity counts as singular
 UPRIGHT = 1e-9  # rad; a tool tilted by less than this counts as upright
@@ -172,9 +172,9 @@ def two_levers(upper: float, fore: float, d: Floats) -> tuple[Floats, Floats, Bo
     the line between the ends, the angle from the first to the second link, both in [0, pi], and
     whether the triangle exists.
 
-    Computed with half angles. The four factors are those of Heron's formula; each is a difference,
-    never a difference of squares, so that no digits are lost where equal links fold (the law of
-    cosines loses half of them).
+    It is computed with half angles. The four factors are those of Heron's formula; each is a
+    difference, never a difference of squares, so that no digits are lost where equal links fold
+    (the law of cosines loses half of them).
     """
     slack = ROUNDING * (upper + fore)
     stretch, fold = upper + fore - d, d - abs(upper - fore)

@@ -134,8 +134,8 @@ def home(links: Sequence[Link]) -> tuple[Floats, Floats, Transform]:
 
 class _Still(NamedTuple):
     """A constant transform in as few steps as possible: translations (axis, length) along
-    coordinate axes, then a rotation about a coordinate axis, a quaternion w, x, y, z for any other
-    axis, or no rotation.
+    coordinate axes, then at most one rotation: about a coordinate axis or, for any other axis, as a
+    quaternion w, x, y, z.
     """
 
     shifts: tuple[tuple[int, float], ...]

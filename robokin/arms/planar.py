@@ -18,7 +18,7 @@ from .link import Link
 
 Z = np.array([0.0, 0.0, 1.0])
 MOST_ROWS = 2_000_000  # greatest number of rows of a table; they take one or two seconds
-PORTION = 1000  # tasks that are computed together if each compares hundreds of postures
+PORTION = 1000  # number of tasks computed together if each compares hundreds of postures
 
 
 def three_lever(L: ArrayLike) -> "ThreeLeverArm":

@@ -12,7 +12,7 @@ SENTENCES = {
     "usable": "Row {row} ({flags}) is usable: it is inside every limit and not singular.",
     "usable but": "Row {row} ({flags}) is usable, but {facts}.",
     "not usable": "Row {row} ({flags}) is not usable: {facts}.",
-    "millimetres": "; lengths are in metres, were millimetres meant (350 * mm)?",
+    "millimetres": "; lengths are in metres: did you mean millimetres (350 * mm)?",
     # why a row does not exist
     "stretched": "{what} is {gap} beyond the stretched arm",
     "folded": "{what} is {gap} too near to joint 2",
@@ -21,11 +21,11 @@ SENTENCES = {
     "plane": "{what} is {gap} off the plane z = 0",
     "tilted": "the tool is tilted by {degrees:.1f}°, and a SCARA's tool stays upright",
     # a joint past its limit
-    "past": "joint {joint} stands at {value}, {over} past its limit of {limit}",
+    "past": "joint {joint} is at {value}, {over} past its limit of {limit}",
     # singularities
-    "shoulder": "{what} is in line with axis 1 (shoulder singularity), where the front and back "
-    "rows meet",
+    "shoulder": "{what} is as near to axis 1 as it can be (shoulder singularity), where the front "
+    "and back rows meet",
     "elbow": "the arm is stretched or folded (elbow singularity), where the two elbow rows are one",
-    "wrist": "axes 4 and 6 are in one line (wrist singularity), so that only their joints' common "
-    "turn is fixed",
+    "wrist": "axes 4 and 6 are in line (wrist singularity), so only the combined rotation of "
+    "joints 4 and 6 is fixed",
 }

@@ -101,7 +101,7 @@ def _site_arguments(command: Callable[..., argparse.ArgumentParser]) -> None:
         _site,
         "write all labs and the package reference as pages that work without Python",
         "Write a site into FOLDER: labs, companions, glossary, notes for teachers, the package "
-        "reference, a search. Open its index.html, or put the folder on any web server.",
+        "reference and a search. Open its index.html, or put the folder on any web server.",
         extra="site",
     )
     site.add_argument(

@@ -14,7 +14,7 @@ from .markdown import BadFile, Text
 ASSERTS = "It raises AssertionError"  # the beginning of a sentence from `answers.run`
 RAISES = (
     "it raises an error",
-    "It never returns a result. A test that ignores errors accepts it: an error means no.",
+    "It never returns a result. A test that ignores errors accepts it, although an error means no.",
 )
 Program = Callable[..., Any]
 

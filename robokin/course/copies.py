@@ -184,15 +184,15 @@ class _Folder:
         known = (holds, job.version)
         job.places = [p for p in there if there[p] in ours and (there[p], entry.laid) != known]
         for place in job.places:
-            job.outcomes.append(Outcome(place, "replaced", "replaced by the newer one"))
+            job.outcomes.append(Outcome(place, "replaced", "replaced by the newer version"))
         if newer and there[path] is None:
             job.places.append(path)
-            says = "back, since there is a newer one" if entry.laid else "new"
+            says = "restored, since there is a newer version" if entry.laid else "new"
             job.outcomes.append(Outcome(path, "new", says))
         elif newer and there[path] not in ours:
             job.places = job.places or [self._free(path, "new")]
             side = PurePosixPath(job.places[0]).name
-            job.outcomes = [Outcome(path, "kept", f"yours stays; the newer one is {side}")]
+            job.outcomes = [Outcome(path, "kept", f"yours stays; the newer version is {side}")]
         return job
 
     def _do(self, job: _Job) -> None:
@@ -209,8 +209,8 @@ class _Folder:
         self.outcomes += job.outcomes or [Outcome(job.path, "same")]
 
     def _lay(self, path: str, content: bytes, ours: set[str]) -> None:
-        """Write a file in place of one of ours, or where there is none. ValueError: somebody has
-        saved a file there.
+        """Write a file in place of one of ours, or where there is none. ValueError: a file was
+        saved there in the meantime.
         """
         place, old = self.folder / path, self.old / path
         os.makedirs(place.parent, exist_ok=True)
@@ -230,8 +230,8 @@ class _Folder:
             self._tidy()
 
     def _tidy(self) -> None:
-        """Remove our files in .robokin and return the files that were moved there: to their places,
-        or next to them if a new file that we did not write is there.
+        """Remove our files in .robokin, and put the files that were moved there back in their
+        places, or next to them if a new file that we did not write is there.
         """
         ours = {holds for entry in self.entries.values() for holds in entry.handed.values()}
         with contextlib.suppress(FileNotFoundError):
@@ -338,7 +338,7 @@ def _locked(file: BinaryIO) -> bool:
     except (BlockingIOError, PermissionError):
         return False
     except OSError:
-        pass  # a file system without locks: two runs disturb each other, but nothing is lost
+        pass  # a file system without locks: two runs may interfere, but nothing is lost
     return True
 
 

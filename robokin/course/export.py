@@ -64,8 +64,8 @@ def mathml(tex: str, block: bool = False) -> str:
 
 
 def named(formula: str) -> str:
-    """MathML with a name if it is one letter, which alone in the head of a column would have none:
-    axe and some screen readers do not look for text in MathML.
+    """Give MathML a name if it is a single letter. Alone in a column heading, the letter would have
+    no name, since axe and some screen readers do not look for text in MathML.
     """
     letter = re.fullmatch("<math><mi>(\\w)</mi></math>", formula)
     return f'<math aria-label="{letter[1]}"><mi>{letter[1]}</mi></math>' if letter else formula
@@ -207,7 +207,7 @@ class View:
         for found in LATEX.finditer(text):
             made += text[end : found.start()]
             tex = found[1] or found[2]
-            block = bool(found[1]) or tex.lstrip().startswith("\\displaystyle")  # SymPy's sign
+            block = bool(found[1]) or tex.lstrip().startswith("\\displaystyle")  # by SymPy
             made += Markup(renderer.filled(renderer._formula(tex, "$$" if block else "$")))
             end = found.end()
         return made + text[end:]
@@ -251,7 +251,7 @@ class Renderer(IPythonRenderer):
         return f'<h{level} id="{html.escape(words.replace(" ", "-"))}">{text}</h{level}>\n'
 
     def table_cell(self, text: str, align: str | None = None, head: bool = False) -> str:
-        tag = "th" if head and text else "td"  # an empty corner is no header of anything
+        tag = "th" if head and text else "td"  # an empty corner cell is not a header
         if head and (formula := re.fullmatch(f"{self.mark}(\\d+)x", text)):
             typed, made = self.kept[int(formula[1])]
             self.kept[int(formula[1])] = typed, named(made)

@@ -189,7 +189,7 @@ class Function(Exercise):
         told = "The mistake is not recognised: look at the case."
         if self.endless:
             which = ", ".join(map(repr, self.endless))
-            told += f" (Of this exercise's mistakes {which} never ends.)"
+            told += f" (These mistakes of the exercise never end: {which}.)"
         return None, (told,)
 
     def _named_in_time(
@@ -241,7 +241,7 @@ class Function(Exercise):
     def _alike(self, outcomes: list[Outcome]) -> Iterator[Candidate]:
         said = outcomes[0].result
         if not any(o.name for o in outcomes) and all(equal(o.result, said) for o in outcomes):
-            says = f"It answers {in_words(said)} to every case that was tried."
+            says = f"It returns {in_words(said)} in every case that was tried."
             yield Candidate("one answer to everything", says, lambda k: said)
 
     def _common(self) -> Iterator[Candidate]:

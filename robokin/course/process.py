@@ -197,7 +197,7 @@ async def _end_marked(mark: str) -> None:
 
 class Client(NotebookClient):
     """nbclient's client, which also joins the printed text of a cell and stops listening if there
-    is too much output. `cut` collects the cells with too much.
+    is too much output. `cut` collects the cells with too much output.
     """
 
     def __init__(self, *args: Any, cut: set[int], **kwargs: Any) -> None:

@@ -116,7 +116,7 @@ RESULTS = (
         for k, letter in enumerate("xyz")
     ),
     (
-        "inverse for the thing",
+        "inverse of the answer",
         "This is the inverse of what is wanted: the base seen from the tool, or 1 / x.",
         _inverse,
     ),

@@ -53,7 +53,7 @@ Exit status: 0    every task solved
              1    a file skipped, or the output or the log could not be written
              2    nothing to do: wrong usage, no such folder, no *.json in it
              130  stopped with Ctrl+C"""
-BIG = 1_000_000  # bytes; smaller files are solved quickly
+BIG = 1_000_000  # bytes; larger files are announced, since they take longer
 
 log = logging.getLogger("robokin.jobs")  # writes to output.log
 answers = log.getChild("answers")  # writes to output.log and standard output

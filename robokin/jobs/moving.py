@@ -1,4 +1,4 @@
-"""Plans for the three-lever arm past an obstacle that moves along a line at the same time.
+"""Plans that take the three-lever arm past an obstacle while the obstacle moves along a line.
 
 `plan` in `robokin.jobs.obstacles` keeps a clearance from a fixed obstacle; here the arm keeps it
 from a moving one at all times. The obstacle is at H + v t, the arm is in its posture at t, and
@@ -163,6 +163,6 @@ def _search(
                 times = np.append(ticks[: tick + 1], arrive[i])
                 kept = shortcuts(arm, path, (H + times[:, None] * v)[None], distance)
                 if kept is not None:
-                    words = f"Waiting is not enough; a search finds a path of {arrive[i]:.2f} s."
-                    return "search", words, path[kept], times[kept]
+                    found = f"a search finds a path that takes {arrive[i]:.2f} s."
+                    return "search", f"Waiting is not enough; {found}", path[kept], times[kept]
     return None

@@ -26,11 +26,11 @@ def refined_maximum(
     """The greatest value between `low` and `high`, accurate to two more decimals than the
     `decimals` to be shown.
 
-    We sample the interval in 64 steps. Around each sample that exceeds its neighbours, and would be
-    the greatest if its excess were doubled, we sample again, and so on, until no such doubling
-    could change the maximum by half a unit of the second decimal beyond those shown. A concave peak
-    exceeds its greatest sample by no more than that. A peak that is narrower than 1/64 of the
-    interval and lies between two samples is missed.
+    We sample the interval in 64 steps. A concave peak rises above its greatest sample by no more
+    than this sample rises above the lower of its neighbours. So we sample again around every peak
+    that could be the greatest, and stop when no peak can raise the maximum by half a unit of the
+    second decimal beyond those shown. A peak that is narrower than 1/64 of the interval and lies
+    between two samples is missed.
 
     `function` maps an array (k,) to an array (k,), NaN where it has no value. For a minimum, negate
     the function. TypeError: `function` is not callable. ValueError: a range that is not finite, a

@@ -45,9 +45,9 @@ def ptp(q0: ArrayLike, q1: ArrayLike, s: ArrayLike) -> Floats:
     n), at s (...).
 
     Returns (..., n). Joint values are not wrapped: for the shorter turn, choose q1 with `nearest`.
-    Source: 001, listing 8; 000, the motion along a straight line in the space Q. A UserWarning if a
-    joint is beyond two turns: the angles are probably in degrees. ValueError: s outside [0, 1],
-    shapes that do not match.
+    Source: 001, listing 8; 000, the motion along a straight line in the space Q. It warns
+    (UserWarning) if a joint is beyond two turns: the angles are probably in degrees. ValueError: s
+    outside [0, 1], shapes that do not match.
     """
     q0, q1, s = floats(q0, "q0"), floats(q1, "q1"), _share(s)
     if q0.ndim == 0 or q0.shape[-1:] != q1.shape[-1:]:

@@ -21,7 +21,7 @@ from ..arms.branches import SLACK
 from .derivatives import differentiate, rising
 
 LEAP = 0.002  # rad or m: a smaller change is never a jump in position
-FEW = 8  # with fewer changes in speed, the noise level is unknown
+FEW = 8  # with fewer changes in speed than this, the noise level is unknown
 # a jump: index of its motion, first and last sample, time, and the values (n,) before and after it
 Found: TypeAlias = tuple[int, int, int, float, Floats, Floats]
 
@@ -204,10 +204,10 @@ def record(arm: Arm, t: ArrayLike, q: ArrayLike) -> Recording:
     """Return the `Recording` of the motion q (..., N, n) at two or more increasing times t (N,).
 
     Pass unwrapped angles (as `follow` returns them). NaN means that there is no posture. Speeds and
-    accelerations are those of `differentiate`, for each unbroken piece separately. A UserWarning if
-    the angles are probably in degrees: a motion begins more than two turns from zero and outside
-    its limits, or goes beyond eight turns. ValueError: shapes that do not match, times that do not
-    increase, infinite numbers.
+    accelerations are those of `differentiate`, for each unbroken piece separately. It warns
+    (UserWarning) if the angles are probably in degrees: a motion begins more than two turns from
+    zero and outside its limits, or goes beyond eight turns. ValueError: shapes that do not match,
+    times that do not increase, infinite numbers.
 
     A joint's position jumps between two samples if it turns by more than pi there, or if the speed
     of this step lies outside the range of the three steps before and the three after it (at a

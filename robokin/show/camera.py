@@ -183,7 +183,7 @@ def best_view(tools: Floats, flat: int | None) -> View:
         )
         toward = centre @ [np.cos(azimuth), np.sin(azimuth), 0]
         area *= 1 + 0.3 * np.tanh(5 * toward / (np.linalg.norm(centre) + 1e-9))
-        if area > 1.05 * most:  # with this margin noise cannot decide between two equal views
+        if area > 1.05 * most:  # this margin keeps noise from deciding between two equal views
             best, most = (azimuth, VIEW[1]), area
     return best
 

@@ -15,7 +15,9 @@ LONGEST = 2000  # maximum number of characters in a title or a name
 
 
 def in_sight(lengths: Floats, name: str) -> Floats:
-    """Return lengths (...) in metres if a figure can show them, NaN included; else ValueError."""
+    """Return lengths (...) in metres if a figure can show them; NaN is accepted. ValueError: it
+    cannot.
+    """
     if (abs(lengths) > HORIZON).any():
         raise ValueError(f"{name}: wanted at most {HORIZON:g} m, got {np.nanmax(abs(lengths)):g} m")
     return lengths
@@ -24,8 +26,8 @@ def in_sight(lengths: Floats, name: str) -> Floats:
 def several(
     value: Any, name: str, what: str, most: int = 100, error: type[Exception] = ValueError
 ) -> list[Any]:
-    """Return the items of `value` if it is a list or another iterable; else raise `error`, which
-    says that `what` was wanted. ValueError: there are more than `most` items.
+    """Return the items of `value` if it is a list or another iterable; otherwise raise `error`,
+    which says that `what` was wanted. ValueError: there are more than `most` items.
     """
     alone = isinstance(value, (str, bytes)) or (isinstance(value, np.ndarray) and not value.ndim)
     if alone or not isinstance(value, Iterable):
@@ -37,14 +39,14 @@ def several(
 
 
 def yes(value: Any, name: str) -> bool:
-    """Return `value` if it is True or False; else ValueError."""
+    """Return `value`. ValueError: it is neither True nor False."""
     if not isinstance(value, (bool, np.bool_)):
         raise ValueError(f"{name}: wanted True or False, got {short(value)}")
     return bool(value)
 
 
 def plain(value: Any, name: str) -> str:
-    """Return `value` if it is text for a figure or a page; else ValueError. Lone surrogates, which
+    """Return `value`. ValueError: it is not text for a figure or a page. Lone surrogates, which
     cannot be saved in a file, are replaced by U+FFFD.
     """
     if len(text(value, name)) > LONGEST:

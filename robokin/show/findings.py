@@ -152,7 +152,7 @@ def flaws(track: Recording, kept: Ints, units: Floats, length: str) -> Flaws:
         more = f" and {len(marked) - 3} more times" if len(marked) > 3 else ""
         notes.setdefault(c, []).append(
             f"The speed jumps at {times} s{more}: there is no acceleration there, and a "
-            "finite-difference value would only tell the time step."
+            "finite-difference value would only reflect the time step."
         )
     for c, marked in leaps.items():
         first = "; ".join(f"{text} at {when:.2f} s" for when, text in marked[:3])

@@ -29,7 +29,7 @@ CSS_LINE = re.compile(r"(.{160,}?[{};])(?!\})")
 NEEDS_BLANK = re.compile(r"[\w$]{2}|[-+/<!]{2}|\d\.")  # without a space the two tokens would merge
 
 
-@cache  # since a lab has about twenty outputs
+@cache  # since a lab has about twenty outputs with few different scripts
 def script(name: str) -> str:
     """Return the module `name` of the folder js and all its imports, each once and in its own
     scope, as one script in which `$name` holds its exports. `call` in `output.Output` and

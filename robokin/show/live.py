@@ -24,8 +24,8 @@ Answer: TypeAlias = dict[str, Any]
 
 TYPES = ("uint8", "uint16", "int16", "float32")
 WORDS = {
-    "asleep": "Asleep: this view asks Python. Run its cell, and it follows your hand. You see what "
-    "the last run saw.",
+    "asleep": "Asleep: this view needs Python. Run its cell, and it follows your hand. Until then "
+    "it shows the result of the last run.",
     "waiting": "No answer from Python yet. It may be busy with another cell; if the kernel was "
     "restarted, run this cell again.",
     "failed": "Python could not answer: {error}.",

@@ -94,7 +94,7 @@ def motion_explorer(
         _controls(arm),
         through,
         posed,
-        meant=TAKE + "Start and goal move, too. A click on a curve sets the clock.",
+        meant=TAKE + "You can move start and goal, too. Click a curve to set the clock.",
         code=_motion_code(arm, stations),
     )
     data: MotionPage = {

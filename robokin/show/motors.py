@@ -43,8 +43,9 @@ WORDS = {
     "takeRotor": "rotor",
     "rotorAt": "rotor {angle}°",
     "fieldAt": "field {angle}°",
-    "table": "Phase table: which lead gets the plus, pulse by pulse.",
-    "curves": "Steps over time, as sent and as the rotor makes them. The words beside say the end.",
+    "table": "Phase table: the windings that are on at each pulse.",
+    "curves": "Steps over time: those sent, and those that the rotor makes. The text next to the "
+    "curves says how the run ends.",
     "curveTitle": "Steps sent, and made by the rotor",
     "curveTime": "time, ms",
     "sent": "sent",
@@ -57,10 +58,10 @@ WORDS = {
     "plain": "{end} per second from the first to the last",
     "ramped": "from {start} up to {top} per second and down again",
     "slow": "Run shows it {slow} times slower.",
-    "inStep": "Pulses sent: {sent}. The rotor stands where they say.",
+    "inStep": "Pulses sent: {sent}. The rotor is where it should be.",
     "behind": "Pulses sent: {sent}. The rotor is {lost} steps behind.",
     "ahead": "Pulses sent: {sent}. The rotor is {lost} steps ahead.",
-    "held": "In your hand. Let it go.",
+    "held": "You are holding the rotor. Let it go.",
     "tooMuch": "This row does not hold the load.",
     "step": "step",
     "holding": "holding torque",
@@ -74,8 +75,8 @@ WORDS = {
     "orMore": "{value} pulses/s or more",
 }
 MEANT = (
-    "Take hold of the ring on the rotor: turn it away, and let it go. A line of the table switches "
-    "the windings as it says. The load is a weight on a drum: it pulls backwards all the time."
+    "Take hold of the ring on the rotor, turn it away, and let it go. Click a row of the table to "
+    "switch the windings as it says. The load is a weight on a drum: it always pulls backwards."
 )
 Quantity: TypeAlias = Literal["end", "load", "inertia", "start", "ramp"]
 CONTROLS: Sequence[tuple[Quantity, float, str, str, float, float, float, int]] = (

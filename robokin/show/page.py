@@ -279,7 +279,7 @@ class ArmPage(ExplorerPage):
 
 
 class JointPage(ArmPage):
-    """The data of the joint explorer: the posture q, rows of numbers, and whether it speaks of
+    """The data of the joint explorer: the posture q, rows of numbers, and whether it mentions
     singularities.
     """
 

@@ -35,9 +35,9 @@ WAYS = ("the plan", "two via points", "direct")
 UNCHECKED = {WAYS[1]: "via points", WAYS[2]: "direct"}  # the names that `unchecked_path` uses
 TITLE = "From K to K1, past an obstacle H"
 MEANT = (
-    "Drag K, K1 and H, or move them by arrow keys. The cube holds all postures in steps of 12° "
-    "(the plan searches in finer ones): in the grey body a lever is too near to H; the squares are "
-    "the wave of the search, the triangles the target, the line is the path."
+    "Drag K, K1 and H, or move them with the arrow keys. The cube holds all postures in steps of "
+    "12° (the plan searches in finer ones). In the grey body a lever is too near to H; the squares "
+    "are the wave of the search, the triangles are the target, and the line is the path."
 )
 WORDS: Mapping[str, str] = {
     "K": "K, where the gripper starts",
@@ -51,7 +51,7 @@ WORDS: Mapping[str, str] = {
     "share": "{share} % of the way",
     "play": "Play",
     "pause": "Pause",
-    "cube": "The cube of postures. Arrow keys turn it, Home resets it.",
+    "cube": "The cube of postures. Arrow keys turn it, and Home resets it.",
     "copy": "Copy as Python",
     "copied": "Copied",
 }
@@ -150,7 +150,7 @@ def _verdict(
     """The verdict in one sentence, and whether the distance is kept."""
     if len(path) == 1:
         out = "K1 is out of reach" if way == "direct" else "K2, K3 and K1 are not all within reach"
-        return ("No: the arm stays." if way == WAYS[0] else f"No: {out}."), False
+        return ("No: the arm does not move." if way == WAYS[0] else f"No: {out}."), False
     S = f"S = {abs(np.diff(path, axis=0)).sum() / deg:.0f}° (direct {known.least / deg:.0f}°)"
     far = f"comes as near as {in_words(near)}" if near else "sweeps H"
     kept = near >= distance

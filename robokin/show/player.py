@@ -81,8 +81,9 @@ def animate(
     slider   (name, values): q is then (values, samples, n), and the page has a slider for the value
     switch   (name, [words]): q has one more leading axis, one motion for each word, and the page
              has a menu
-    points   places to mark: a list or a dict of name -> (x, y, z); circles the same with (centre,
-             radius): spheres, or discs if the arm is planar. In metres and base coordinates.
+    points   places to mark: a list or a dict of name -> (x, y, z); circles are the same
+             with (centre, radius), drawn as spheres, or as discs if the arm is planar. All are in
+             metres and base coordinates.
     floor    the floor is at height 0 and hides what is below it; by default it is below everything
     bases    the places of several arms in one picture: (arms, 2), x and y in m; targets,
              points, circles and faces are then in coordinates of the floor. Named points

@@ -37,7 +37,7 @@ from .scene import Scene
 from .things import Mark
 from .twin import chain
 
-MOST = 12  # maximum points: the page stays legible, and the best order takes about 10 ms
+MOST = 12  # maximum number of points: the page stays legible, and the best order takes about 10 ms
 WHILE_HELD = 10  # with more points, the best order is computed only after the reader lets go
 KINDS = ("visit", "collect")
 TOURS = ("greedy", "best")
@@ -58,9 +58,10 @@ WORDS = {
 }
 MEANT = (
     "Drag p0 and the points: they move in the plane of the screen; turn the view to move them "
-    "another way. A row of the table sets the arm on its tour; play shows it. Above a point stands "
-    "its place in the greedy tour, below it that in the best. The dotted circle is as far as the "
-    "arm reaches on the floor; a wide red band, a way under the floor."
+    "another way. Click a row of the table to choose its tour, and play it. The number above a "
+    "point is its place in the greedy tour, the number below it is its place in the best one. The "
+    "dotted circle shows how far the arm reaches on the floor; a wide red band shows where the "
+    "tool dips under the floor."
 )
 
 
@@ -184,7 +185,7 @@ def _says(task: Task, results: dict[str, Result], n: str) -> str:
     late = greedy.time - best.time
     if round(late, 2):
         return f"Greed loses no point, but {late:.2f} s: both visit {few} of {n}."
-    return f"Greed loses nothing: nearest first visits {few} of {n}, and no order more or sooner."
+    return f"Greed loses nothing: nearest first visits {few} of {n}, and no order is better."
 
 
 def _points(count: int) -> str:

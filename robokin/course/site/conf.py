@@ -42,7 +42,7 @@ html_theme_options = {
     "light_css_variables": dict.fromkeys(LINKS, PAGE["accent"][0]),
     "dark_css_variables": dict.fromkeys(LINKS, PAGE["accent"][1]),
 }
-SHARED = PurePosixPath(robokin.course.__file__).parent / "templates"  # with exported pages
+SHARED = PurePosixPath(robokin.course.__file__).parent / "templates"  # also used by exported pages
 html_static_path = ["static", f"{SHARED}/narrow.css", f"{SHARED}/narrow.js"]
 html_css_files = ["narrow.css", "site.css"]
 html_js_files = ["site.js"]
@@ -87,8 +87,8 @@ def _formula(translator: Any, node: nodes.Element, block: bool) -> None:
 
 
 def _own_name(app: Any, docname: str, source: list[str]) -> None:
-    """A companion refers to itself as #. Links to our source become links to the reference. No
-    sentence says how to start a view in JupyterLab.
+    """Adapt a notebook to the site. A companion refers to itself as #. Links to our source become
+    links to the reference. Sentences on how to start a view in JupyterLab are removed.
     """
     source[0] = quiet(source[0])
     source[0] = source[0].replace("](#)", f"]({PurePosixPath(docname).name}.ipynb)")

@@ -176,7 +176,7 @@ def plan(
         return Plan("direct", "The direct way is clear: no obstacle is given.", direct, far, least)
     too_near = _too_near(arm, start, K1, H, distance)
     if too_near:
-        hint = f"No path keeps {in_words(distance)}; a smaller distance may be asked for."
+        hint = f"No path keeps a distance of {in_words(distance)}; ask for a smaller one."
         return no_plan(start, f"{too_near} {hint}", least)
     clear = motion_clearances(arm, start[None], goal[None], H)
     if clear.min() >= distance:
@@ -220,7 +220,7 @@ def _too_near(arm: ThreeLeverArm, start: Floats, K1: Floats, H: Floats, distance
     q_H = lever_distances(arm, start, H)[:, 0]  # (m, 3)
     if O_H.min() < distance:
         name = _named(H, int(O_H.argmin())).capitalize()
-        return f"{name} lies on the base or {in_words(O_H.min())} from it."
+        return f"{name} lies {in_words(O_H.min())} from the base."
     if q_H.min() < distance:
         which, lever = np.unravel_index(q_H.argmin(), q_H.shape)
         return (

@@ -56,7 +56,7 @@ def way_round(
     size = len(H) * np.prod(np.ptp(arm.limits, axis=1) / STEP)
     if size > WORK:
         raise ValueError(
-            f"arm: wanted limits that give at most {WORK} grid postures times obstacles, got "
+            f"arm: wanted limits for which grid postures times obstacles are at most {WORK}, got "
             f"{size:.6g} with {len(H)} obstacles"
         )
     axes, start = grid_axes(arm, q0)

@@ -13,7 +13,7 @@ from ...units import deg, wrapped
 
 LIMIT = 500.0  # pulses per second, the greatest frequency. Source: 003, paper 1, (8)
 SAMPLES = 1001  # number of postures along a straight line
-SLACK = 1e-9  # a position within this of a whole pulse counts as that pulse
+SLACK = 1e-9  # a position this close to a whole pulse counts as that pulse
 # greatest distance from zero in pulses; up to it a float represents every whole number exactly
 COUNTED = 2**52
 LISTED = 10_000_000  # greatest number of pulses that one call lists
@@ -78,7 +78,8 @@ def counts(q: ArrayLike, per_degree: ArrayLike) -> Ints:
     per_degree  (n,) or one number: pulses per degree of the joint, including the gear. Source: 003,
                 paper 1, the reduced angle phi of (5).
     The pulses of moves are differences, `np.diff(counts(q, per_degree), axis=-2)`: their sum is
-    exact. A UserWarning if a joint has made many turns: the angles are probably in degrees.
+    exact. It warns (UserWarning) if a joint has made many turns: the angles are probably in
+    degrees.
     """
     values = floats(q, "q")
     warn_if_degrees(values, "q", posture=1)
@@ -207,8 +208,9 @@ def straight(
 
     All motors start and stop together. At any moment the fastest one runs at the greatest
     frequency, so this is the shortest time for the path. The figure is lost, and the text
-    distinguishes c from b only by a motor that turns one way and then back. We take them as two
-    pairs of points with the same law. c needs more pulses than d between the same points.
+    distinguishes c from b only by a motor that turns one way and then back. We take b and c to be
+    the same law between two different pairs of points. c needs more pulses than d between the same
+    points.
 
     Source: 003, paper 1, figure 4 (5 in the text), b and c. ValueError: a point of the line for
     which `out_of_reach` gives a reason.

@@ -13,7 +13,7 @@ from .phase_table import DRIVES, energised, phases, read_windings
 ROTORS = ("active", "passive")
 SETTLED = 8.0  # time constants after which a rotor is at rest
 NEARLY = 3.0  # time constants until a current is within 5 % of its final value
-# integration step, as fractions of the shortest mechanical time constant and of `rise`
+# the integration step, as a fraction of the shortest mechanical time constant and of `rise`
 FINE = (0.1, 0.25)
 INTEGRATED = 100_000  # greatest number of steps of one run
 FASTEST = 1e9  # rad/s: the greatest speed that a load or torque may cause
@@ -121,8 +121,8 @@ class Stepper(Sealed):
     ) -> float:
         """The highest frequency, in whole pulses per second, at which the motor follows from rest
         without losing a step; one pulse per second more, and it loses some. At most `LIMIT`; 0 if
-        even `SLOWEST` is too fast. It is found by bisection: a motor with little damping may also
-        lose steps far below it, by resonance.
+        even `SLOWEST` is too fast. We find it by bisection, so we may miss that a motor
+        with little damping also loses steps far below it, because of resonance.
 
         load, load_inertia  as in `run`. Source of the term: 003, II.3.1.
         """

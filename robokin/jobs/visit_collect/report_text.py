@@ -15,7 +15,7 @@ POINTS_SHOWN = 1_000
 def report(task: Task, result: Result) -> str:
     """The result as text, with a line for each point served: its index in pi, its coordinates, its
     time. Warnings follow: moves on which the tool dips below the floor, an order that may not be
-    the best, oddities of the file. At most POINTS_SHOWN lines of points, and FAULTS_SHOWN of moves.
+    the best, and oddities of the file. It lists at most POINTS_SHOWN points and FAULTS_SHOWN moves.
     ValueError: a result of another task.
     """
     stops = stops_of(task, result)
@@ -78,6 +78,6 @@ def _oddities(task: Task) -> list[str]:
     if (task.speeds > TWO_TURNS).any():
         found.append(
             f"q' = {task.speeds.tolist()}: {task.speeds.max():.6g} rad/s is more than two turns a "
-            "second; were degrees meant?"
+            "second; did you mean degrees?"
         )
     return [*found, *task.remarks]

@@ -266,7 +266,7 @@ RULES: dict[str, tuple[Callable[[Any], bool], str]] = {
 
 
 def _plain(value: Any, depth: int = 2) -> Any:
-    """Convert arrays and tuples, as a lesson passes them, to lists as in a file. Values that are
+    """Convert arrays and tuples, as a lab passes them, to lists as in a file. Values that are
     too large or not numbers are unchanged; `faults` refuses them.
     """
     if isinstance(value, (np.ndarray, np.generic)):

@@ -3,7 +3,7 @@
 /** @typedef {[number, number]} Pixel  CSS pixels from the upper left corner of a canvas */
 /** @typedef {number[]} Point  x, y, z in metres, base coordinates */
 /** @typedef {[number, number, number, number]} Box  left, top, width, height in CSS pixels */
-/** @typedef {[color: string, width: number, dash?: number[]]} Look  the look of a line */
+/** @typedef {[color: string, width: number, dash?: number[]]} Look  the style of a line */
 /**
  * @typedef {[fill: string, edge?: string, width?: number]} Filling  the fill and edge of a shape
  */

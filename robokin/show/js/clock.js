@@ -23,7 +23,7 @@ export function clockRow(names = null) {
     scrub = range("time", TICKS),
     time = element("span", {class: "rk-value"});
   const speed = choice(
-    "playing speed",
+    "playback speed",
     SPEEDS.map(each => `${each}\u00D7`),
   );
   const kind = names ? "rk-word" : "rk-sign";

@@ -15,7 +15,7 @@ import {dashes, drawPanel, FAINT, strength} from "./panel.js";
 /** @typedef {ReturnType<typeof curvesView>} CurvesView */
 /** @typedef {{text: string, color: string, width: number, dash: number[]}} Entry  of a legend */
 
-const HEAD = 22, // px above a plot, for the name of its panel
+const HEAD = 22, // px: the height of the name above a plot
   LEAST = 34, // px: the height of a small plot
   LARGE = 182; // px: the height of the large plot
 

@@ -16,11 +16,11 @@ import {SIGNS, twoLevers, worst} from "./two_levers.js";
 /** @import {ArmOf, ClosedFormArm, ScaraPose, TransformPose} from "./kinematics.js" */
 
 /** @typedef {[number, number]} Pair  cosine and sine of one angle */
-/** @typedef {Object<string, boolean>} Held  at which singularities a posture is */
+/** @typedef {Object<string, boolean>} Held  which singularities a posture has */
 /** @typedef {{q: number[], plane: Pair, ahead: Pair}} ElbowRow */
 /**
- * The functions of one geometry: the rows of `ik`; at which singularities q is; q with the joints
- * that are free there as in the previous posture; and why a row is missing.
+ * The functions of one geometry: the rows of `ik`; the singularities of q; q with the joints that
+ * are free there as in the previous posture; and why a row is missing.
  * @template {Inverse} G
  * @typedef {{
  *   ik(arm: ArmOf<G>, pose: PagePose): number[][],
@@ -322,7 +322,7 @@ export const geometryOf = arm =>
 export const ik = (arm, pose) => geometryOf(arm).ik(arm, pose);
 
 /**
- * At which singularities the posture q is.
+ * Which singularities the posture q has.
  * @param {ArmData} arm
  * @param {number[]} q
  * @returns {Held}

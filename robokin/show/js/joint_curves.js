@@ -10,8 +10,8 @@ import {unpacked} from "./unpacked.js";
 /** @import {CurvePanel, PageCurves} from "./page.js" */
 /** @import {Line, Panel} from "./panel.js" */
 
-const EACH = 205, // px for a panel with its name
-  MOST = 495; // px for all panels, so that a figure with three fits on the screen
+const EACH = 205, // px: the height of a panel with its name
+  MOST = 495; // px: the height of all panels, so that a figure with three fits on the screen
 
 /**
  * Builds the view in every place that waits for this id.

@@ -14,12 +14,11 @@ import {element} from "./elements.js";
 /** @typedef {(n: number, question: unknown) => void} Port  sends a question to the kernel */
 /** @typedef {{n: number, answer: {error?: string}, buffers: DataView<ArrayBuffer>[]}} Arrived */
 
-const PATIENCE = 4000; // ms without an answer, after which the view says so
+const PATIENCE = 4000; // ms: after this time without an answer the view says so
 // Up to two questions may be under way: the second carries the acknowledgement without which the
 // first answer is delayed by 40 ms (Nagle's algorithm with delayed acknowledgements).
 const UNDER_WAY = 2;
-// ms from question to answer: if it takes longer, a second question would only wait and become
-// stale
+// ms: if an answer takes longer than this, a second question would only wait and become stale
 const SLOW = 100;
 
 /**

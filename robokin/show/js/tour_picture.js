@@ -55,7 +55,7 @@ export function toured(chain, {t, q, order, times}, name) {
 }
 
 /**
- * Sets the look of each handle: served, still to be served, left out or out of reach; and its rank
+ * Sets the style of each handle: served, still to be served, left out or out of reach; and its rank
  * in both tours.
  * @param {HTMLElement} layer
  * @param {State} state
