@@ -1,4 +1,5 @@
-"""The choice of a safe plan, from the distances that `collision` measures.
+"""The choice of a safe plan, from the distances that `collision` measures. This module decides for
+a direct motion and for a path through via points; `posture_grid` decides for a search.
 
 This is the control system of source 003: it plans the direct motion, a path through two via points,
 or a search.
