@@ -131,7 +131,7 @@ OPENED = '<details class="rk-code" open><summary>code</summary>'
 
 # --- Docstrings -----------------------------------------------------------------------------------
 
-ENTRY = r"(\S+(?: \S+)*) {2,}(\S.*(?:\n {2,}.*)*)"  # a name, two or more spaces, its meaning
+ENTRY = re.compile(r"(\S+(?: \S+)*) {2,}(\S.*)")  # a name, two or more spaces, its meaning
 
 
 def _not_ours(app: Any, what: str, name: str, thing: Any, skip: bool, options: Any) -> bool | None:
@@ -147,8 +147,8 @@ def _as_it_is(app: Any, what: str, name: str, thing: Any, options: Any, lines: l
     """
     made: list[str] = []
     for block in re.split(r"\n\s*\n", "\n".join(lines).strip()):
-        if re.fullmatch(rf"{ENTRY}(?:\n{ENTRY})*", block):
-            for entry, meaning in re.findall(rf"^{ENTRY}", block, re.M):
+        if entries := _entries(block):
+            for entry, meaning in entries:
                 made += [f"``{entry}``", f"    {_words(meaning)}"]
         elif re.search(r"^ |^>>>|\S {2,}\S", block, re.M):
             made += [".. code-block:: none", "", *("    " + line for line in block.splitlines())]
@@ -156,6 +156,22 @@ def _as_it_is(app: Any, what: str, name: str, thing: Any, options: Any, lines: l
             made.append(_words(block))
         made.append("")
     lines[:] = made
+
+
+def _entries(block: str) -> list[tuple[str, str]]:
+    """The names and meanings in a block that is a list of them; none if it is something else. A
+    regular expression for the whole block would take hours for a block that is nearly a list.
+    """
+    found: list[tuple[str, str]] = []
+    for line in block.splitlines():
+        entry = ENTRY.fullmatch(line)
+        if entry:
+            found.append((entry[1], entry[2]))
+        elif found and line.startswith("  "):
+            found[-1] = (found[-1][0], f"{found[-1][1]}\n{line}")
+        else:
+            return []
+    return found
 
 
 def _words(text: str) -> str:
