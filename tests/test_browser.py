@@ -247,7 +247,8 @@ def test_untrusted_notebook_shows_still_pictures(jupyter, page):
     )
     for alt in stored:
         still = page.get_by_alt_text(html.unescape(alt), exact=True).first
-        still.wait_for()
+        still.wait_for(state="attached")
+        still.evaluate("image => image.closest('details')?.setAttribute('open', '')")
         still.scroll_into_view_if_needed()
         until(still.is_visible, "the still picture is not visible", page)
         box = still.bounding_box()

@@ -173,7 +173,7 @@ def test_rotor_can_be_dragged_and_pulses_continue(opened):
     before = shown.look()
     shown.handle("rotor").focus()
     shown.page.keyboard.down("ArrowLeft")
-    assert "5°" in shown.look().handles["rotor"]["name"] and "hand" in state.inner_text()
+    assert "5°" in shown.look().handles["rotor"]["name"] and "holding" in state.inner_text()
     shown.page.keyboard.up("ArrowLeft")
     run = shown.rk.get_by_role("button", name="Run 48 pulses")
     run.click()

@@ -877,7 +877,7 @@ def test_angles_in_degrees_cause_a_warning():
 
 def test_grids_with_too_many_postures_are_refused():
     wide = type(ARM)("wide", ARM.geometry, [(-20.0, 20.0)] * 3)
-    with pytest.raises(ValueError, match=rf"arm: .*{WORK} grid postures .*got 9.6.* with 1 obst"):
+    with pytest.raises(ValueError, match=rf"arm: .* grid postures .*{WORK}, got 9.6.* with 1 obst"):
         way_round(wide, Q0, GOAL, FAR, 0.1)
     with pytest.raises(ValueError, match=r"got 2\.3.* with 50 obstacles"):
         way_round(ARM, Q0, GOAL, [FAR] * 50, 0.1)

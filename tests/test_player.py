@@ -734,7 +734,7 @@ def test_page_is_small(motions):
     )
     assert 110 <= len(player.data["times"]) <= 121
     assert len(player.html.encode()) < 400_000
-    assert len(animate(IRB140, T, motions[1]).html.encode()) < 55_500
+    assert len(animate(IRB140, T, motions[1]).html.encode()) < 56_000
 
 
 def test_mime_bundle_has_html_and_text(blended):

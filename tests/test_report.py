@@ -220,7 +220,7 @@ def test_other_files_are_not_overwritten(tmp_path, monkeypatch, capsys):
     text = page.read_text(encoding="utf-8")
     data = report_data(text)
     assert data["lab"] is None and data["exercises"] == [] and data["title"] == "Notes"
-    assert "no exercises" in text and ">2\n<" in text
+    assert "no robokin exercises" in text and ">2\n<" in text
     page.write_text(text.replace('"who":"Ada"', '"who":"Bob"'))
     assert main(["report", str(lab), "--name", "Ada"]) == 1, "the page is another student's"
     for name in ("", " "):
