@@ -707,11 +707,11 @@ def alive(page, calls):
     those behind predictions.
     """
     before = page.evaluate(AWAKE)
-    assert len(before) == len(calls) and all(before)
+    assert before and all(before)
     assert guess_all(page) == calls.count("prediction.ask")
     awake(page)
     after = page.evaluate(AWAKE)
-    assert all(after), "a view behind a prediction is dead"
+    assert len(after) == len(calls) and all(after), "a view behind a prediction is dead"
     return len(after) - len(before)
 
 

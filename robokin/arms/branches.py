@@ -108,7 +108,7 @@ def follow(arm: Arm, rows: ArrayLike, row: int) -> Floats:
     tracks, cost = np.where(missing[..., None], 0.0, tracks), np.where(missing, np.inf, 0.0)
     choose, turn = _chooser(arm), np.where(arm.prismatic, 0.0, TURN)
     # the samples with free joints; a different shift for each joint, so that no two shifts cancel
-    free = (choose(tracks, tracks + np.arange(n)) != tracks).any(axis=(0, 2, 3))
+    free = (choose(tracks, tracks + np.arange(1, n + 1)) != tracks).any(axis=(0, 2, 3))
     complete: Bools = np.all(exists, axis=0)
     motions = np.arange(len(tracks))
     q = np.empty((len(tracks), samples, n))
