@@ -33,9 +33,11 @@ from robokin.course.exercises import Verdict
 from robokin.course.export import View, page
 from robokin.course.harmless import clean, harmless_link, is_deep
 from robokin.course.ours import CALL, KINDS, LEFT_OUT, again, fits, quiet
+from robokin.course.predictions import shown
 from robokin.course.report_page import page_of
 from robokin.course.texts import ALL_BUT_HALVES, all_visible, visible
 from robokin.show import target_explorer
+from robokin.show.markup import inert, output
 from robokin.show.page import Page
 
 ATTACK = "window.hacked=1;document.title='hacked';new Image().src='URL/script'"
@@ -450,6 +452,17 @@ def test_own_outputs_are_unchanged():
         same = again(made.html, "n").replace(" nonce=n", "")
         mine = quiet(made.html)  # except what it says to readers in JupyterLab
         assert re.sub("[0-9a-f]{12}", "", same) == re.sub("[0-9a-f]{12}", "", mine)
+
+
+def test_older_questions_are_written_anew():
+    """Older notebooks store the view as a string in the data of the question."""
+    name = "irb140_motion.p1"
+    made = predict(name, "a")
+    assert ".show(" in made.html, "the view has a call of its own"
+    data = inert(made.data | {"view": shown(made.view())})
+    older = output("prediction.ask", made.id, data, "<p>words</p>")
+    assert again(older, "n") == again(made.html, "n")
+    assert again(older, "n", {}) == again(predict(name).html, "n")
 
 
 def test_verdict_has_the_colour_of_its_state():

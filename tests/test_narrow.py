@@ -354,3 +354,6 @@ def test_without_scripts_a_still_says_what_it_is(exported, opened):
     page = opened(exported[SOME[0]].as_uri(), WIDE, java_script_enabled=False)
     said = page.locator(".robokin-player > p:empty").first
     assert "still picture" in said.evaluate("p => getComputedStyle(p, '::after').content")
+    page.emulate_media(media="print")
+    assert said.evaluate("p => getComputedStyle(p, '::after').content") == "none", "on paper"
+    assert not page.locator(".robokin-unguessed > summary").first.is_visible(), "on paper"
