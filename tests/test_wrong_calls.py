@@ -131,6 +131,7 @@ TASK_OF_LEVERS = dict(arm=LEVERS, target=POINT, previous=FOLDED)
 RECORDING = motion.record(IRB140, TIMES, np.where(TIMES[:, None] < 0.5, MOTION, MOTION + 2))
 RECORDINGS = motion.record(IRB140, TIMES, np.stack([MOTION, MOTION]))
 PAGE = "page.html, in a folder of the test"
+PLOT = figures.figure("words").subplots()
 SKETCH, CORNERS = figures.Sketch("words"), np.array([[0, 0], [0.3, 0.2], [0.5, 0.1]])
 PLAYER = figures.animate(IRB140, TIMES, MOTION)
 EXPLORER = figures.joint_explorer(IRB140)
@@ -370,6 +371,14 @@ CALLS = {
         dict(arm=LEVERS, posture=FOLDED, target=POINT, obstacle=OBSTACLE),
     ),
     "motor_explorer": (figures.motor_explorer, dict(motor=STEPPER)),
+    "bars": (
+        figures.bars,
+        dict(ax=PLOT, values={"a": 1.0}, form="{:g} s", xlabel="t, s", title="t"),
+    ),
+    "curves": (
+        figures.curves,
+        dict(ax=PLOT, x=TIMES, values={"a": TIMES}, joints=[0], xlabel="x", ylabel="y", title="t"),
+    ),
     "plot_frames": (
         figures.plot_frames,
         dict(frames=BATCH, names=["a", "b", "c"], title="t", size=0.1, chain=True, alt="words"),
