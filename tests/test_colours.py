@@ -172,6 +172,15 @@ def test_every_title_is_bold_and_at_the_left():
         assert text.get_window_extent().x1 <= fig.bbox.width
 
 
+def test_long_title_of_a_plot_with_true_proportions_is_inside_the_figure():
+    fig = figure("A square.", 7, 3)
+    ax = fig.subplots()
+    ax.set(aspect="equal", title="Links of 4 and 5 m serve all out to 9 m, but for a round hole")
+    fig.tight_layout()
+    box = ax._left_title.get_window_extent()
+    assert box.x0 >= 0 and box.x1 <= fig.bbox.width and box.y1 <= fig.bbox.height
+
+
 def test_style_of_figures_does_not_change_matplotlib():
     before = dict(matplotlib.rcParams)
     ax = figure("A plot.").subplots()

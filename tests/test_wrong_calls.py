@@ -19,6 +19,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from matplotlib.figure import Figure as MatplotlibFigure
 
 import robokin
 from robokin import (
@@ -945,7 +946,9 @@ def _methods(kind, found, prefix):
         member = getattr(kind, name)
         member = getattr(member, "__func__", member)  # the function of a class method
         ours = getattr(member, "__module__", None) or ""
-        public = name[0] != "_" or name in OPERATORS
+        # Matplotlib answers for the arguments of its own methods, also where ours extend them.
+        theirs = issubclass(kind, MatplotlibFigure) and hasattr(MatplotlibFigure, name)
+        public = (name[0] != "_" or name in OPERATORS) and not theirs
         if public and ours.startswith("robokin") and inspect.isfunction(member):
             if parameters := _parameters(member) - {"self", "cls"}:
                 found[prefix + member.__qualname__] = parameters

@@ -12,7 +12,7 @@ from typing import Any
 
 import matplotlib
 import numpy as np
-from cycler import cycler
+from matplotlib import cycler
 from matplotlib.axes import Axes
 from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.figure import Figure as MatplotlibFigure
@@ -92,7 +92,9 @@ class Figure(MatplotlibFigure):
         if "projection" not in keywords:
             keywords = {"axes_class": Plot} | keywords
         with matplotlib.rc_context(STYLE):
-            return super().add_subplot(*place, **keywords)
+            plot = super().add_subplot(*place, **keywords)
+        plot.set_anchor("W")  # one with true proportions is at the left, below its title
+        return plot
 
     def suptitle(self, t: str, **keywords: Any) -> Text:
         """Write the title at the top left, in as many lines as it needs."""
