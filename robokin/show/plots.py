@@ -65,7 +65,7 @@ class Plot(Axes):
         place, whole = self.get_subplotspec(), self.get_figure(root=True)
         columns = place.get_gridspec().ncols if place else 1
         size = keywords.get("fontsize", 12 if columns == 1 else 10.5)
-        width = whole.get_figwidth() / columns - 0.8 if whole else 1.0
+        width = whole.get_figwidth() / columns - 0.6 if whole else 1.0
         look = {"loc": "left", "fontsize": size, **TITLE, **keywords}
         return super().set_title(wrapped(label, width, size), *args, **look)
 
