@@ -12,10 +12,10 @@ from typing import Any
 
 import matplotlib
 import numpy as np
-from matplotlib import cycler
 from matplotlib.axes import Axes
 from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.figure import Figure as MatplotlibFigure
+from matplotlib.rcsetup import cycler
 from matplotlib.text import Text
 from PIL import Image
 
