@@ -19,6 +19,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from matplotlib.figure import Figure as MatplotlibFigure
 
 import robokin
 from robokin import (
@@ -131,6 +132,7 @@ TASK_OF_LEVERS = dict(arm=LEVERS, target=POINT, previous=FOLDED)
 RECORDING = motion.record(IRB140, TIMES, np.where(TIMES[:, None] < 0.5, MOTION, MOTION + 2))
 RECORDINGS = motion.record(IRB140, TIMES, np.stack([MOTION, MOTION]))
 PAGE = "page.html, in a folder of the test"
+PLOT = figures.figure("words").subplots()
 SKETCH, CORNERS = figures.Sketch("words"), np.array([[0, 0], [0.3, 0.2], [0.5, 0.1]])
 PLAYER = figures.animate(IRB140, TIMES, MOTION)
 EXPLORER = figures.joint_explorer(IRB140)
@@ -370,6 +372,14 @@ CALLS = {
         dict(arm=LEVERS, posture=FOLDED, target=POINT, obstacle=OBSTACLE),
     ),
     "motor_explorer": (figures.motor_explorer, dict(motor=STEPPER)),
+    "bars": (
+        figures.bars,
+        dict(ax=PLOT, values={"a": 1.0}, form="{:g} s", xlabel="t, s", title="t"),
+    ),
+    "curves": (
+        figures.curves,
+        dict(ax=PLOT, x=TIMES, values={"a": TIMES}, joints=[0], xlabel="x", ylabel="y", title="t"),
+    ),
     "plot_frames": (
         figures.plot_frames,
         dict(frames=BATCH, names=["a", "b", "c"], title="t", size=0.1, chain=True, alt="words"),
@@ -936,7 +946,9 @@ def _methods(kind, found, prefix):
         member = getattr(kind, name)
         member = getattr(member, "__func__", member)  # the function of a class method
         ours = getattr(member, "__module__", None) or ""
-        public = name[0] != "_" or name in OPERATORS
+        # Matplotlib answers for the arguments of its own methods, also where ours extend them.
+        theirs = issubclass(kind, MatplotlibFigure) and hasattr(MatplotlibFigure, name)
+        public = (name[0] != "_" or name in OPERATORS) and not theirs
         if public and ours.startswith("robokin") and inspect.isfunction(member):
             if parameters := _parameters(member) - {"self", "cls"}:
                 found[prefix + member.__qualname__] = parameters

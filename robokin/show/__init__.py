@@ -1,6 +1,7 @@
 """Figures and players for notebooks, made from arrays."""
 
 try:
+    from .charts import bars, curves
     from .ellipsoid import plot_velocity_ellipsoid
     from .explorer import Explorer
     from .explorers import joint_explorer, target_explorer
@@ -23,6 +24,8 @@ __all__ = [
     "Player",
     "Sketch",
     "animate",
+    "bars",
+    "curves",
     "figure",
     "joint_explorer",
     "motion_explorer",

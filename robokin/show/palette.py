@@ -26,10 +26,17 @@ DASHES = [list(style["dash"]) for style in JOINT_STYLES]  # for pages
 AXIS_COLORS = ("#C62828", "#2E7D32", "#1F55C4")  # x, y, z of a triad: red, green, blue
 ALARM, TRACE, PALE = "#B3261E", "#0072B2", "#B3D4E8"  # PALE: a trace in the background
 
-# Colours of figures: lines and text, postures from strong to faint, and the floor.
+# Colours of figures by role: lines and text, postures from strong to faint, and the floor.
 INK, SOFT, FAINT, GRID = "#2F3A45", "#87939F", "#C3CAD1", "#DDE2E7"
 REMARK, SCALE = "#5A6672", "#6B7681"
 PANEL_GRID, SHADOW, FOOT = "#E9ECEF", "#EDEFF2", "#D5DAE0"
+PAPER, AREA = "#FFFFFF", "#E3E7EB"  # AREA: the floor, an obstacle, values past a limit
+# What is compared and is not a joint: readable as text on light and dark pages, and unlike the
+# colours of the joints. The areas are for the same things, behind text.
+FIRST, SECOND, THIRD = "#5B3FB8", "#8A5A00", "#A3127C"
+FIRST_AREA, SECOND_AREA, THIRD_AREA = "#D4C9F2", "#F0DDB6", "#F2D3E8"
+COMPARED = ((FIRST, "-"), (SECOND, "--"), (THIRD, ":"), (INK, "-."))  # with line styles
+TITLE: Mapping[str, Any] = MappingProxyType({"fontweight": "bold", "color": INK})
 
 FONT = "system-ui,-apple-system,'Segoe UI','Liberation Sans',sans-serif"  # the font of pages
 # Colours of pages: name -> (light, dark), six digits each.

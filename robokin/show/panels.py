@@ -358,16 +358,7 @@ def _write_title(fig: Figure, title: str, height: float) -> int:
     """Write a bold title at the top left of a figure of this height, and return its number of
     lines.
     """
-    words = textwrap.fill(title, int(fig.get_size_inches()[0] * 8.4))
-    lines = words.count("\n") + 1
-    fig.text(
-        0.014,
-        1 - 0.1 / (height + 0.2 * (lines - 1)),
-        words,
-        fontsize=12,
-        fontweight="bold",
-        color=INK,
-        va="top",
-        parse_math=False,
-    )
+    written = fig.suptitle(title, parse_math=False)
+    lines = written.get_text().count("\n") + 1
+    written.set_y(1 - 0.1 / (height + 0.2 * (lines - 1)))
     return lines

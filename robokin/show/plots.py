@@ -10,10 +10,12 @@ import textwrap
 from collections.abc import Iterable, Sequence
 from typing import Any
 
+import matplotlib
 import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.figure import Figure as MatplotlibFigure
+from matplotlib.rcsetup import cycler
 from matplotlib.text import Text
 from PIL import Image
 
@@ -27,7 +29,7 @@ from .arguments import Targets, named_targets
 from .camera import arm_points, extent, flange, is_flat
 from .checks import if_given, in_sight, plain, samples, sentence, several
 from .markup import figure_image
-from .palette import FAINT, INK, JOINT_STYLES, SCALE, SOFT
+from .palette import COMPARED, FAINT, INK, JOINT_STYLES, PAPER, SCALE, SOFT, TITLE
 from .scene import Scene, number
 
 __all__ = [
@@ -42,15 +44,63 @@ __all__ = [
 DPI = 100
 SMALLEST = 10 * 72 / DPI  # points: text of 10 pixels, which stays readable
 INCHES = "a positive number of inches"
+STYLE: dict[Any, Any] = {  # of a plot, beside its title
+    "axes.prop_cycle": cycler(color=[color for color, _ in COMPARED]),
+    "axes.edgecolor": SOFT,
+    "axes.labelcolor": INK,
+    "xtick.color": SOFT,
+    "ytick.color": SOFT,
+    "xtick.labelcolor": INK,
+    "ytick.labelcolor": INK,
+}
+
+
+class Plot(Axes):
+    """A plot with its title at the left, in the style of all titles."""
+
+    def set_title(self, label: str, *args: Any, **keywords: Any) -> Text:
+        """Write the title, in as many lines as it needs; it is smaller above one of several plots
+        in a row.
+        """
+        place, whole = self.get_subplotspec(), self.get_figure(root=True)
+        columns = place.get_gridspec().ncols if place else 1
+        size = keywords.get("fontsize", 12 if columns == 1 else 10.5)
+        width = whole.get_figwidth() / columns - 0.6 if whole else 1.0
+        look = {"loc": "left", "fontsize": size, **TITLE, **keywords}
+        return super().set_title(wrapped(label, width, size), *args, **look)
+
+    def get_title(self, loc: Any = "left") -> str:
+        return super().get_title(loc)
+
+
+def wrapped(words: str, width: float, size: float) -> str:
+    """The words in lines that fit into a width in inches, as a title of this size in points."""
+    most = max(int(width * 9.5 * 12 / size), 1)
+    return "\n".join(textwrap.fill(line, most) for line in words.split("\n"))
 
 
 class Figure(MatplotlibFigure):
     """A Matplotlib figure with alt text that displays itself in a notebook."""
 
     def __init__(self, alt: str, **keywords: Any) -> None:
-        super().__init__(dpi=DPI, facecolor="white", **keywords)
+        super().__init__(dpi=DPI, facecolor=PAPER, **keywords)
         FigureCanvasAgg(self)
         self.alt = alt
+
+    def add_subplot(self, *place: Any, **keywords: Any) -> Any:
+        """Return a new plot in the style of all figures. `subplots` makes its plots here, too."""
+        if "projection" not in keywords:
+            keywords = {"axes_class": Plot} | keywords
+        with matplotlib.rc_context(STYLE):
+            plot = super().add_subplot(*place, **keywords)
+        plot.set_anchor("W")  # one with true proportions is at the left, below its title
+        return plot
+
+    def suptitle(self, t: str, **keywords: Any) -> Text:
+        """Write the title at the top left, in as many lines as it needs."""
+        words = wrapped(t, self.get_figwidth(), 12)
+        look = {"x": 0.014, "ha": "left", "fontsize": 12, **TITLE, **keywords}
+        return super().suptitle(words, **look)
 
     def _repr_mimebundle_(self, include: Any = None, exclude: Any = None) -> dict[str, str]:
         # JupyterLab 4.6 and the "lab" template of nbconvert 7.17 both ignore {"alt": ...} in the
@@ -210,16 +260,7 @@ def _canvas(fig: Figure, title: str | None) -> Axes:
     """Return axes over the whole figure, below the title."""
     fig.set_size_inches(9, 6)
     if title:
-        fig.text(
-            0.014,
-            0.985,
-            textwrap.fill(title, 64),
-            fontsize=12,
-            fontweight="bold",
-            color=INK,
-            va="top",
-            parse_math=False,
-        )
+        fig.suptitle(title, y=0.985, parse_math=False)
     return fig.add_axes((0, 0, 1, 0.93 if title else 1))
 
 

@@ -14,7 +14,7 @@ from .._arrays import ArrayLike, Floats
 from .._validate import choice, floats, positive
 from ..units import mm
 from .checks import in_sight, plain, several
-from .palette import INK, JOINT_STYLES, REMARK
+from .palette import INK, JOINT_STYLES, PAPER, REMARK
 from .plots import Figure, figure
 
 UNITS = {"mm": mm, "m": 1.0}
@@ -51,7 +51,7 @@ class Sketch(Figure):
             aspect="equal", xlabel=f"{plain(x, 'x')}, {unit}", ylabel=f"{plain(y, 'y')}, {unit}"
         )
         self.ax.margins(0.12)
-        self.ax.set_title(plain(title, "title"), loc="left", fontweight="bold", color=INK)
+        self.ax.set_title(plain(title, "title"))
 
     def levers(self, points: ArrayLike, names: Sequence[str] = (), *, dashed: bool = False) -> None:
         """Draw links between consecutive points (k, 2) in the joints' colours, and the names of the
@@ -62,7 +62,7 @@ class Sketch(Figure):
             color = JOINT_STYLES[k % len(JOINT_STYLES)]["color"]
             line = (0, (2, 1)) if dashed else "-"
             self.ax.plot(*np.transpose([a, b]), color=color, lw=3 if dashed else 5, ls=line)
-        self.ax.plot(*corners.T, "o", color="white", mec=INK, ms=8, mew=1.4, zorder=3)
+        self.ax.plot(*corners.T, "o", color=PAPER, mec=INK, ms=8, mew=1.4, zorder=3)
         middle = corners.mean(axis=0)
         for corner, name in zip(
             corners, several(names, "names", "a list of strings"), strict=False

@@ -5,8 +5,8 @@ from typing import Any
 import numpy as np
 
 from robokin import Quaternion, Transform, deg, mm
-from robokin.show import JOINT_STYLES, figure, plot_frames
-from robokin.show.palette import REMARK
+from robokin.show import curves, figure, plot_frames
+from robokin.show.palette import FIRST, REMARK, SECOND
 
 from .predictions import NUMBERS, SHIFT, TURN, S, nlerp, p4, p5, p7, p8, speed, told
 from .shared import MINUS, X, Z, arc
@@ -31,8 +31,8 @@ def p2_view() -> Any:
     )
     ax = fig.subplots()
     tip = SHIFT * np.array([np.cos(TURN * deg), np.sin(TURN * deg)])
-    ax.plot([0, SHIFT], [0, 0], color=JOINT_STYLES[1]["color"], lw=3, ls="--")
-    ax.plot([0, tip[0]], [0, tip[1]], color=JOINT_STYLES[0]["color"], lw=3)
+    ax.plot([0, SHIFT], [0, 0], color=SECOND, lw=3, ls="--")
+    ax.plot([0, tip[0]], [0, tip[1]], color=FIRST, lw=3)
     ax.plot([SHIFT, tip[0]], [0, tip[1]], color=REMARK, lw=1.5, ls=":")
     ax.annotate("B: shift, turn", (SHIFT, 0), (8, 0), textcoords="offset points")
     ax.annotate("A: turn, shift", (tip[0], tip[1]), (8, 0), textcoords="offset points")
@@ -113,20 +113,15 @@ def p8_view() -> Any:
         height=3.2,
     )
     ax = fig.subplots()
-    styles = (
-        ("slerp", arc, "-", JOINT_STYLES[0]["color"]),
-        ("nlerp", nlerp, "--", JOINT_STYLES[1]["color"]),
-    )
-    for name, lead, style, color in styles:
-        turned = speed(lead, np.pi) / deg
-        ax.plot(S, turned, style, color=color, lw=2)
-        ax.text(0.5, turned[200] + 6, name, color=color, ha="center")
-    ax.set(
-        title=f"Nlerp hurries in the middle: {ratio:.1f} times as fast as at the ends",
+    curves(
+        ax,
+        S,
+        {name: speed(lead, np.pi) / deg for name, lead in (("slerp", arc), ("nlerp", nlerp))},
         xlabel="s",
         ylabel="angular speed, ° per unit of s",
-        ylim=(0, 270),
+        title=f"Nlerp hurries in the middle: {ratio:.1f} times as fast as at the ends",
     )
+    ax.set_ylim(0, 270)
     fig.tight_layout()
     return fig
 

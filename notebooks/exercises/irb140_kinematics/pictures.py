@@ -5,7 +5,8 @@ from typing import Any
 import numpy as np
 
 from robokin import IRB140, deg, explain, mm
-from robokin.show import figure, plot_joints, plot_postures
+from robokin.show import curves, figure, plot_joints, plot_postures
+from robokin.show.palette import INK
 
 from .predictions import (
     CENTRE_Q,
@@ -109,16 +110,17 @@ def p9_view() -> Any:
         3.2,
     )
     ax = fig.subplots()
-    ax.plot(distance, missed, color="#D55E00", lw=2)
-    ax.axvline(LEAST, color="black", lw=1, ls="--")
-    ax.text(LEAST + 4, 45, "shoulder angle 90°")
-    ax.set(
+    curves(
+        ax,
+        distance,
+        {"miss": missed},
         xlabel="d, from joint 2 to the wrist centre, mm",
         ylabel="miss, mm",
-        xlim=(0, 300),
-        ylim=(0, 65),
         title=f"Nearer than {LEAST:.0f} mm the arcsine misses in silence",
     )
+    ax.axvline(LEAST, color=INK, lw=1, ls="--")
+    ax.text(LEAST + 4, 45, "shoulder angle 90°")
+    ax.set(xlim=(0, 300), ylim=(0, 65))
     fig.subplots_adjust(bottom=0.18)
     return fig
 

@@ -5,7 +5,8 @@ from typing import Any
 import numpy as np
 
 from robokin import IRB140, deg, differentiate, mm
-from robokin.show import animate, figure, plot_joints
+from robokin.show import animate, curves, figure, plot_joints
+from robokin.show.palette import SOFT
 
 from .predictions import (
     FROM,
@@ -25,8 +26,6 @@ from .predictions import (
     tool_acceleration,
 )
 from .shared import HIGH, LEFT, LOW, MINUS, RIGHT, D
-
-STYLES = ("--", "-", ":")
 
 
 def p1_view() -> Any:
@@ -60,15 +59,12 @@ def p4_view() -> Any:
         height=3.4,
     )
     axes = fig.subplots(1, 3)
-    for (name, law), style in zip(LAWS.items(), STYLES, strict=True):
-        progress = law(T[-1])(T)
-        curves = progress, differentiate(progress, T), differentiate(progress, T, 2)
-        for ax, curve in zip(axes, curves, strict=True):
-            ax.plot(T, curve, style, label=name, linewidth=2)
-    labels = "progress s", "speed of s, 1/s", "acceleration of s, 1/s²"
-    for ax, label in zip(axes, labels, strict=True):
-        ax.set(title=label, xlabel="time t, s")
-    axes[0].legend()
+    progress = {name: law(T[-1])(T) for name, law in LAWS.items()}
+    speed = {name: differentiate(s, T) for name, s in progress.items()}
+    acceleration = {name: differentiate(s, T, 2) for name, s in progress.items()}
+    curves(axes[0], T, progress, xlabel="time t, s", title="progress s")
+    curves(axes[1], T, speed, xlabel="time t, s", title="speed of s, 1/s")
+    curves(axes[2], T, acceleration, xlabel="time t, s", title="acceleration of s, 1/s²")
     fig.tight_layout()
     return fig
 
@@ -122,15 +118,16 @@ def p8_view() -> Any:
         height=3.8,
     )
     ax = fig.subplots()
-    for (name, error), style in zip(errors(steps).items(), STYLES, strict=True):
-        ax.loglog(steps, error, style, linewidth=2, label=name)
-    ax.axvline(0.01, color="0.6", linewidth=1)
-    ax.set(
+    curves(
+        ax,
+        steps,
+        errors(steps),
         xlabel="step h, s",
         ylabel="largest error of six joints, rad/s and rad/s²",
         title="A step can be too small: left of the V the error is rounding",
     )
-    ax.legend()
+    ax.axvline(0.01, color=SOFT, linewidth=1)
+    ax.set(xscale="log", yscale="log")
     fig.tight_layout()
     return fig
 

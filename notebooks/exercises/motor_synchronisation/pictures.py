@@ -6,7 +6,8 @@ import numpy as np
 
 from robokin import deg, mm
 from robokin.jobs.steppers import shortest_turn, station_postures
-from robokin.show import JOINT_STYLES, figure
+from robokin.show import JOINT_STYLES, curves, figure
+from robokin.show.palette import COMPARED, INK, SOFT
 
 from .predictions import geared, missed, p1, p3, p4, p5, p6, p9, path, random_moves
 from .shared import LOADER
@@ -65,13 +66,12 @@ def p5_view() -> Any:
     )
     fig = figure(says, 5.4, 4.2)
     ax = fig.subplots()
-    looks = ("#D55E00", "--"), ("#0072B2", "-")
-    for (name, move), (color, dash) in zip(geared().items(), looks, strict=True):
+    for (name, move), (color, dash) in zip(geared().items(), COMPARED, strict=False):
         way = path(move)
         ax.plot(way[:, 0], way[:, 1], dash, color=color, lw=2.2)
         x, y, _ = way[500]
         ax.text(x + 15, y, name, color=color, fontsize=14, fontweight="bold")
-    ax.plot(0, 0, "+", color="black", ms=12)
+    ax.plot(0, 0, "+", color=INK, ms=12)
     ax.set(xlabel="x, mm", ylabel="y, mm", aspect="equal")
     ax.set_title(f"Seen from above: a {a:.0f} mm, d {d:.0f} mm")
     fig.tight_layout()
@@ -116,14 +116,18 @@ def p8_view() -> Any:
     )
     fig = figure(says, 6.4, 3.2)
     ax = fig.subplots()
-    looks = ("magnet", 1, "#0072B2", "-"), ("plain iron", 2, "#D55E00", "--")
-    for name, factor, color, dash in looks:
-        ax.plot(away, np.sin(factor * away * deg), dash, color=color, lw=2.2, label=name)
-    ax.axvline(90, color="black", lw=1, ls=":")
-    ax.axhline(0, color="0.7", lw=0.8, zorder=0)
+    curves(
+        ax,
+        away,
+        {"magnet": np.sin(away * deg), "plain iron": np.sin(2 * away * deg)},
+        xlabel="field ahead of the rotor, °",
+        ylabel="torque, share of the greatest",
+        title="A quarter turn ahead pulls a magnet, not plain iron",
+    )
+    ax.axvline(90, color=INK, lw=1, ls=":")
+    ax.axhline(0, color=SOFT, lw=0.8, zorder=0)
     ax.legend(fontsize=9, loc="center left", bbox_to_anchor=(1, 0.5))
-    ax.set(xlabel="field ahead of the rotor, °", ylabel="torque, share of the greatest")
-    ax.set(xticks=range(-180, 181, 90), title="A quarter turn ahead pulls a magnet, not plain iron")
+    ax.set_xticks(range(-180, 181, 90))
     fig.tight_layout()
     return fig
 
@@ -146,8 +150,9 @@ def p10_view() -> Any:
     fig = figure(says, 6.4, 3.2)
     ax = fig.subplots()
     for j, (name, ways) in enumerate(missed().items()):
-        look = {"color": JOINT_STYLES[j]["color"], "marker": "os"[j], "ms": 5}
-        ax.plot(list(ways), list(ways.values()), ls=("-", "--")[j], label=name, **look)
+        color, dash = COMPARED[j]
+        look = {"color": color, "marker": "os"[j], "ms": 5}
+        ax.plot(list(ways), list(ways.values()), ls=dash, label=name, **look)
     ax.legend(fontsize=9)
     ax.set(xlabel="frequency, pulses/s", ylabel="steps lost of 48", yticks=range(0, 49, 8))
     ax.set_title("Lost steps come in fours; a ramp loses fewer")

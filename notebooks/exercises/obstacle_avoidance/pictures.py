@@ -6,17 +6,27 @@ import numpy as np
 
 from robokin import mm
 from robokin.jobs.obstacles import along, in_quadrilateral, via_path
-from robokin.show import figure
+from robokin.show import curves, figure
+from robokin.show.palette import (
+    AREA,
+    FAINT,
+    FIRST,
+    FIRST_AREA,
+    INK,
+    PAPER,
+    REMARK,
+    SECOND,
+    SECOND_AREA,
+    SOFT,
+)
 
 from .predictions import FAR, LEVER, PASSED, SAMPLED, SEEN, p3, p5, p6, p7, p8, swept_by_last
 from .shared import ARM, K1, START, WANTED, Floats, direct, distances, drawing, sampled
 
-COLORS = ("#0072B2", "#D55E00", "#009E73")
-
 
 def draw(ax: Any, q: Floats, label: str, **style: Any) -> None:
     points = ARM.points(q)
-    ax.plot(*points.T, marker="o", mfc="white", ms=5, lw=2, label=label, **style)
+    ax.plot(*points.T, marker="o", mfc=PAPER, ms=5, lw=2, label=label, **style)
 
 
 def plane(ax: Any, low: tuple[float, float], high: tuple[float, float], title: str) -> None:
@@ -38,12 +48,12 @@ def p1_view() -> Any:
         "upside down": drawn * (1, -1),
     }
     for ax, (name, corners) in zip(fig.subplots(1, 4), shapes.items(), strict=True):
-        ax.fill(*corners.T, facecolor="#CFE3F1")
-        for k, (label, dash) in enumerate((("AK", "-"), ("A1K1", ":"))):
+        ax.fill(*corners.T, facecolor=FIRST_AREA)
+        for k, (label, color, dash) in enumerate((("AK", FIRST, "-"), ("A1K1", SECOND, ":"))):
             side = corners[[0, 1]] if k == 0 else corners[[3, 2]]
-            ax.plot(*side.T, color=COLORS[k], ls=dash, lw=3, label=label)
+            ax.plot(*side.T, color=color, ls=dash, lw=3, label=label)
         says = drawing(corners, np.zeros(2))
-        ax.plot(0, 0, "X", color="black", ms=9)
+        ax.plot(0, 0, "X", color=INK, ms=9)
         ax.text(0, -0.3, "found" if says else "missed", ha="center")
         ax.set(aspect="equal", title=name, xticks=[], yticks=[], xlim=(-0.8, 0.8), ylim=(-0.8, 0.8))
     fig.axes[0].legend(loc="upper left", fontsize=8)
@@ -67,12 +77,12 @@ def p2_view() -> Any:
     start, end = direct(FAR)
     over = swept_by_last(start, end, *(np.unique(each) for each in GRID.T)).ravel()
     quad = in_quadrilateral(ARM, start, end, GRID)["AK"]
-    ax.plot(*GRID[over & ~quad].T, "s", ms=3.2, color="#E08A4A", label="swept, outside")
-    ax.plot(*GRID[over & quad].T, "s", ms=3.2, color="#A9CCE3", label="swept, inside")
+    ax.plot(*GRID[over & ~quad].T, "s", ms=3.2, color=SECOND_AREA, label="swept, outside")
+    ax.plot(*GRID[over & quad].T, "s", ms=3.2, color=FIRST_AREA, label="swept, inside")
     corners = np.stack([*ARM.points(start)[2:], *ARM.points(end)[:1:-1]])
-    ax.fill(*corners.T, facecolor="none", edgecolor="black", ls="--", label="quadrilateral")
-    draw(ax, start, "before", color="black")
-    draw(ax, end, "after", color=COLORS[2])
+    ax.fill(*corners.T, facecolor="none", edgecolor=INK, ls="--", label="quadrilateral")
+    draw(ax, start, "before", color=INK)
+    draw(ax, end, "after", color=SECOND)
     plane(ax, (-1.6, -0.2), (3.6, 2.3), "Most of what AK sweeps lies outside the quadrilateral")
     ax.legend(loc="upper right", fontsize=8)
     fig.tight_layout()
@@ -87,11 +97,11 @@ def p3_view() -> Any:
     )
     ax = fig.subplots()
     P, Q, H = LEVER
-    ax.plot(*np.array([P, Q]).T, color=COLORS[0], lw=6, solid_capstyle="round")
-    ax.plot([1, 1.6], [0, 0], "--", color="0.6")
-    ax.plot(*H, "X", color="black", ms=10)
+    ax.plot(*np.array([P, Q]).T, color=INK, lw=6, solid_capstyle="round")
+    ax.plot([1, 1.6], [0, 0], "--", color=SOFT)
+    ax.plot(*H, "X", color=INK, ms=10)
     facts = p3()
-    for foot, name, color in ((Q, "end", COLORS[1]), ((H[0], 0), "line", "0.5")):
+    for foot, name, color in ((Q, "end", FIRST), ((H[0], 0), "line", REMARK)):
         ax.annotate(
             "", (foot[0], foot[1]), (H[0], H[1]), arrowprops={"arrowstyle": "<->", "color": color}
         )
@@ -112,12 +122,18 @@ def p4_view() -> Any:
     ax = fig.subplots()
     path, s = direct(FAR), np.linspace(0, 1, 601)
     fine = distances(sampled(path, 601), SAMPLED).min(axis=-1)
-    ax.plot(100 * s, fine, color=COLORS[0], lw=2)
+    curves(
+        ax,
+        100 * s,
+        {"nearest lever": fine},
+        xlabel="share of the motion, %",
+        ylabel="nearest lever, m",
+        title="The valley lies between two of the samples",
+    )
     dots = distances(sampled(path, SEEN), SAMPLED).min(axis=-1)
-    ax.plot(100 * np.linspace(0, 1, SEEN), dots, "o", color="black", ms=7)
-    ax.axhspan(0, WANTED, color="0.88")
-    ax.set(xlabel="share of the motion, %", ylabel="nearest lever, m", ylim=(0, None))
-    ax.set_title("The valley lies between two of the samples")
+    ax.plot(100 * np.linspace(0, 1, SEEN), dots, "o", color=INK, ms=7)
+    ax.axhspan(0, WANTED, color=AREA)
+    ax.set_ylim(0, None)
     fig.tight_layout()
     return fig
 
@@ -132,14 +148,14 @@ def p5_view() -> Any:
     ax = fig.subplots()
     path = via_path(ARM, START, K1, PASSED)
     for q in along(path, np.linspace(0, 1, 60)):
-        ax.plot(*ARM.points(q).T, color="0.8", lw=0.6, zorder=0)
-    draw(ax, path[0], "start", color="black")
-    draw(ax, path[-1], "target", color=COLORS[2], ls=":")
+        ax.plot(*ARM.points(q).T, color=FAINT, lw=0.6, zorder=0)
+    draw(ax, path[0], "start", color=INK)
+    draw(ax, path[-1], "target", color=SECOND, ls=":")
     ways = ARM.points(along(path, np.linspace(0, 1, 400)))[:, 3]
-    ax.plot(*ways.T, color=COLORS[0], lw=2, label="gripper")
+    ax.plot(*ways.T, color=FIRST, lw=2, label="gripper")
     angle = np.linspace(0, 2 * np.pi, 100)
-    ax.plot(PASSED[0] + WANTED * np.cos(angle), PASSED[1] + WANTED * np.sin(angle), color="0.4")
-    ax.plot(*PASSED, "X", color="black", ms=9, zorder=6)
+    ax.plot(PASSED[0] + WANTED * np.cos(angle), PASSED[1] + WANTED * np.sin(angle), color=REMARK)
+    ax.plot(*PASSED, "X", color=INK, ms=9, zorder=6)
     plane(ax, (-1.2, -0.1), (2.9, 2.2), "The gripper goes round, lever AK goes over")
     ax.legend(loc="upper right", fontsize=8)
     fig.tight_layout()

@@ -5,7 +5,8 @@ from typing import Any
 import numpy as np
 
 from robokin import PUMA560, deg, differentiate, mm
-from robokin.show import figure, plot_frames
+from robokin.show import curves, figure, plot_frames
+from robokin.show.palette import AREA, COMPARED, FIRST, SECOND
 
 from . import predictions as of
 from .shared import D3, HIGH, LOW
@@ -31,12 +32,12 @@ def p2_view() -> Any:
     ax = fig.subplots()
     rho = (D3 / mm + 1e-6) + 700 * np.linspace(0, 1, 100) ** 3
     both = np.array([of.waists(x * mm) for x in rho])
-    ax.plot(rho, both[:, 0], "-", rho, both[:, 1], "--", color="#0072B2", lw=2)
-    ax.vlines(facts["rho"], *of.waists(2 * D3), color="#D55E00", lw=2)
+    ax.plot(rho, both[:, 0], "-", rho, both[:, 1], "--", color=FIRST, lw=2)
+    ax.vlines(facts["rho"], *of.waists(2 * D3), color=SECOND, lw=2)
     ax.text(facts["rho"] + 8, 90, f"{facts['turn']:.0f}°", va="center")
     ax.text(700, both[92, 0] + 9, "front", ha="center")
     ax.text(700, both[92, 1] - 9, "behind", ha="center", va="top")
-    ax.axvspan(100, D3 / mm, color="#E3E7EB")
+    ax.axvspan(100, D3 / mm, color=AREA)
     ax.set(xlabel="distance from axis 1, mm", ylabel="q1, °", xlim=(100, 850), ylim=(0, 180))
     ax.set(yticks=range(0, 181, 30), title="At the offset the two values are one")
     fig.tight_layout()
@@ -60,7 +61,7 @@ def p4_view() -> Any:
         3.2,
     )
     ax = fig.subplots()
-    ax.bar(range(9), shares, color="#0072B2")
+    ax.bar(range(9), shares, color=FIRST)
     for k, value in enumerate(shares):
         ax.text(k, value + 0.7, f"{value:.1f}", ha="center", fontsize=9)
     ax.set(xlabel="rows inside the limits", ylabel="share of the poses, %", xticks=range(9))
@@ -92,8 +93,7 @@ def p6_view() -> Any:
         3.8,
     )
     left, right = fig.subplots(1, 2)
-    styles = (("#E69F00", "-"), ("#009E73", ":"), ("#0072B2", "--"), ("#CC79A7", "-."))
-    for (name, line), (color, style) in zip(prices.items(), styles, strict=True):
+    for (name, line), (color, style) in zip(prices.items(), COMPARED, strict=True):
         left.loglog(misses, line[:, 0] / deg, style, color=color, lw=2.4)
         look: dict[str, Any] = {"ls": style, "lw": 2.4}
         if name == "shoulder, towards":  # wide, since the other shoulder line covers it
@@ -131,16 +131,25 @@ def p8_view() -> Any:
         3.6,
     )
     left, right = fig.subplots(1, 2)
-    for row, (style, color) in enumerate((("-", "#0072B2"), ("--", "#D55E00"))):
-        left.plot(t, both[row, :, 3] / deg, style, color=color, lw=2, label=f"row {row}")
-        speed = differentiate(both[row], t)[:, 3] / deg
-        right.plot(t, speed, style, color=color, lw=4 - 2 * row, label=f"row {row}")
+    rows = {f"row {row}": both[row] for row in (0, 1)}
+    curves(
+        left,
+        t,
+        {name: q[:, 3] / deg for name, q in rows.items()},
+        xlabel="t, s",
+        ylabel="q4, °",
+        title="Half a turn apart: one is past its limit",
+    )
+    curves(
+        right,
+        t,
+        {name: differentiate(q, t)[:, 3] / deg for name, q in rows.items()},
+        xlabel="t, s",
+        ylabel="speed of joint 4, °/s",
+        title="The same speeds",
+    )
     for end, away in ((LOW[3], -60), (HIGH[3], 60)):
-        left.axhspan(end / deg, end / deg + away, color="#E3E7EB")
+        left.axhspan(end / deg, end / deg + away, color=AREA)
     left.text(0.1, HIGH[3] / deg + 8, "past the limit")
-    left.set(xlabel="t, s", ylabel="q4, °", title="Half a turn apart: one is past its limit")
-    right.set(xlabel="t, s", ylabel="speed of joint 4, °/s", title="The same speeds")
-    left.legend()
-    right.legend()
     fig.tight_layout()
     return fig

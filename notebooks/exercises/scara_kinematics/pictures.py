@@ -5,7 +5,8 @@ from typing import Any
 import numpy as np
 
 from robokin import SCARA, ScaraPose, deg, mm
-from robokin.show import Sketch, figure
+from robokin.show import Sketch, curves, figure
+from robokin.show.palette import AREA
 
 from .predictions import BEHIND, MIRRORED, SINE_AT, TURN, areas, bend, lap, sine_angles
 from .shared import HIGH, L1, L2, MINUS, distance, shown
@@ -80,7 +81,7 @@ def p5_view() -> Any:
     )
     closed = np.linspace(HIGH[0], 2 * np.pi - HIGH[0], 40)
     x, y = 230 * np.cos(closed), 230 * np.sin(closed)
-    fig.ax.fill([0, *x], [0, *y], color="0.85", zorder=0)
+    fig.ax.fill([0, *x], [0, *y], color=AREA, zorder=0)
     target = BEHIND.position[:2]
     for q, dashed in zip(SCARA.ik(BEHIND), (False, True), strict=True):
         joint_2 = elbow_at(q[0])
@@ -114,17 +115,17 @@ def p8_view() -> Any:
     )
     ax = fig.subplots()
     degrees = np.linspace(0, 360, 361)
-    for elbow, line in ((+1, "-"), (-1, "--")):
-        name = f"elbow {elbow:+d}".translate(MINUS)
-        ax.plot(degrees, lap(elbow) / deg, line, color="#009E73", lw=2, label=name)
-    ax.axhspan(HIGH[2] / deg, 450, color="0.85")
-    ax.text(8, 425, "past the limit", va="center")
-    ax.set(
+    curves(
+        ax,
+        degrees,
+        {f"elbow {elbow:+d}".translate(MINUS): lap(elbow) / deg for elbow in (+1, -1)},
         xlabel="way around the circle, °",
         ylabel="joint 3, °",
-        ylim=(-80, 450),
         title="One turn of the tool, two elbows",
     )
+    ax.axhspan(HIGH[2] / deg, 450, color=AREA)
+    ax.text(8, 425, "past the limit", va="center")
+    ax.set_ylim(-80, 450)
     ax.legend(loc="lower right")
     fig.tight_layout()
     return fig

@@ -5,14 +5,15 @@ from typing import Any
 import numpy as np
 
 from robokin import SCARA, ScaraPose, deg, differentiate, lin, mm, ptp
-from robokin.show import JOINT_STYLES, animate, figure, plot_joints
+from robokin.show import JOINT_STYLES, animate, curves, figure, plot_joints
+from robokin.show.palette import ALARM, AREA, COMPARED, INK, REMARK, SOFT
 from robokin.units import wrapped
 
 from .predictions import B1, H1, H2, OFF, acceleration, behind, near_start, p5, p9, turning
 from .shared import GOAL, HIGH, ROW, START, VIA, S, Shown, T, joints, stroke
 
 FEW = T[::10]  # every 0.2 s: enough for a view that shows a shape
-PINK, RED = JOINT_STYLES[3]["color"], "#B3261E"
+PINK = JOINT_STYLES[3]["color"]  # joint 4
 
 
 def p1_view() -> Any:
@@ -86,16 +87,23 @@ def p6_view() -> Any:
         height=3.4,
     )
     axes = fig.subplots(1, 2, sharey=True)
-    for off, style in ((-OFF, "-"), (OFF, "--")):
-        name = f"start at {Shown(off):+.2f}°"
-        axes[0].plot(S, np.unwrap(turning(off, S)) / deg, style, lw=2, label=name)
-        axes[1].plot(S, near_start(off).lerp(VIA, S).angle / deg, style, lw=2, label=name)
-    ticks = range(-180, 181, 90)
-    axes[0].set(title="As a rotation: 0.02° decides", ylabel="tool angle, °", yticks=ticks)
-    axes[1].set(title="As a number: the number decides")
-    for ax in axes:
-        ax.set_xlabel("progress s")
-    axes[1].legend()
+    starts = {f"start at {Shown(off):+.2f}°": off for off in (-OFF, OFF)}
+    curves(
+        axes[0],
+        S,
+        {name: np.unwrap(turning(off, S)) / deg for name, off in starts.items()},
+        xlabel="progress s",
+        ylabel="tool angle, °",
+        title="As a rotation: 0.02° decides",
+    )
+    curves(
+        axes[1],
+        S,
+        {name: near_start(off).lerp(VIA, S).angle / deg for name, off in starts.items()},
+        xlabel="progress s",
+        title="As a number: the number decides",
+    )
+    axes[0].set_yticks(range(-180, 181, 90))
     fig.tight_layout()
     return fig
 
@@ -112,15 +120,15 @@ def p7_view() -> Any:
         seen, limit = wrapped(q * deg) / deg, HIGH[i] / deg
         shown = np.where(abs(np.diff(seen, append=seen[-1])) > 180, np.nan, seen)
         caught = abs(seen) > limit
-        ax.plot(S, q, "--", color="0.5", lw=1.5)
-        ax.text(0.97, q[-1] - 75, "as it turns", ha="right", va="top", color="0.4")
+        ax.plot(S, q, "--", color=SOFT, lw=1.5)
+        ax.text(0.97, q[-1] - 75, "as it turns", ha="right", va="top", color=REMARK)
         ax.plot(S, shown, color=JOINT_STYLES[i]["color"], lw=2)
         ax.text(0.97, seen[-1] - 45, "wrapped", ha="right", va="top")
         if caught.any():
-            ax.plot(S[caught], seen[caught], ".", color=RED, ms=5)
-            ax.text(S[caught][0] - 0.02, seen[caught][0] + 15, "caught", ha="right", color=RED)
-        ax.axhspan(limit, 500, color=PINK, alpha=0.22, lw=0)
-        ax.axhspan(-500, -limit, color=PINK, alpha=0.22, lw=0)
+            ax.plot(S[caught], seen[caught], ".", color=ALARM, ms=5)
+            ax.text(S[caught][0] - 0.02, seen[caught][0] + 15, "caught", ha="right", color=ALARM)
+        ax.axhspan(limit, 500, color=AREA, zorder=0)
+        ax.axhspan(-500, -limit, color=AREA, zorder=0)
         told = "caught on its way out" if caught.any() else "no sample is caught"
         ax.set(xlim=(0, 1), ylim=(-450, 450), yticks=range(-360, 361, 180), xlabel="progress s")
         ax.set(ylabel=f"q{i + 1}, °", title=f"Joint {i + 1}, limit ±{limit:.0f}°: {told}")
@@ -136,23 +144,23 @@ def p8_view() -> Any:
     )
     ax = fig.subplots()
     x = np.linspace(0, 1, 101)
-    ax.plot([-1, 0, 1], [H1, 0, H2], color="0.6", lw=1)
-    for b, style in zip((0.1, 0.2, 0.3, 0.4), (":", "-.", "--", "-"), strict=True):
+    ax.plot([-1, 0, 1], [H1, 0, H2], color=SOFT, lw=1)
+    for b, (color, style) in zip((0.1, 0.2, 0.3, 0.4), COMPARED, strict=True):
         across, height = 2 * b * (x**2 - (1 - x) ** 2), 2 * b * (H1 * (1 - x) ** 2 + H2 * x**2)
-        ax.plot(across, height, style, lw=2, label=f"blend {b}")
-        ax.plot(across[height.argmin()], height.min(), "o", color="0.2", ms=4)
-    ax.plot(0, 0, "o", color="0.4")
+        ax.plot(across, height, style, color=color, lw=2, label=f"blend {b}")
+        ax.plot(across[height.argmin()], height.min(), "o", color=INK, ms=4)
+    ax.plot(0, 0, "o", color=INK)
     for place, name, off in (
         ((-2 * B1, 2 * B1 * H1), "A", (-4, 8)),
         ((0, 0), "B = via", (12, -4)),
         ((2 * B1, 2 * B1 * H2), "C", (-14, 2)),
     ):
-        ax.plot(*place, "o", color="0.2", ms=4)
+        ax.plot(*place, "o", color=INK, ms=4)
         ax.annotate(name, place, off, textcoords="offset points", fontsize=11)
     for at, tall, name, side in ((-1, H1, "$h_1$", 6), (1, H2, "$h_2$", -20)):
-        ax.annotate("", (at, 0), (at, tall), arrowprops={"arrowstyle": "<->", "color": "0.4"})
+        ax.annotate("", (at, 0), (at, tall), arrowprops={"arrowstyle": "<->", "color": REMARK})
         ax.annotate(name, (at, tall / 2), (side, 0), textcoords="offset points", fontsize=11)
-    ax.axhline(0, color="0.8", lw=0.8, zorder=0)
+    ax.axhline(0, color=SOFT, lw=0.8, zorder=0)
     ax.set_title("Every corner is an enlargement of the same one, from the via point")
     ax.set(xlabel="share of the line before (−) and after (+) via", ylabel="height over via, mm")
     ax.legend()
@@ -168,17 +176,18 @@ def p9_view() -> Any:
         height=3.2,
     )
     ax = fig.subplots()
-    for corner, of, style in (
-        ("parabola", "parabola", "-"),
-        ("quintic", "parabola", "--"),
-        ("quintic", "quintic", ":"),
-    ):
-        q4 = stroke(facts[of], S, corner)
-        ax.plot(T, q4 / mm, style, lw=2, label=f"{corner}, blend {facts[of]:.3f}")
-    ax.axhspan(HIGH[3] / mm, 200, color=PINK, alpha=0.22, lw=0)
+    pairs = ("parabola", "parabola"), ("quintic", "parabola"), ("quintic", "quintic")
+    curves(
+        ax,
+        T,
+        {f"{one}, blend {facts[of]:.3f}": stroke(facts[of], S, one) / mm for one, of in pairs},
+        xlabel="time t, s",
+        ylabel="stroke q4, mm",
+        title=f"The quintic goes deeper: it needs a blend of {facts['quintic']:.3f}",
+    )
+    ax.axhspan(HIGH[3] / mm, 200, color=AREA, zorder=0)
     ax.text(5.1, 192, "past the limit of 180 mm")
-    ax.set(xlim=(5, 15), ylim=(120, 200), xlabel="time t, s", ylabel="stroke q4, mm")
-    ax.set_title(f"The quintic goes deeper: it needs a blend of {facts['quintic']:.3f}")
+    ax.set(xlim=(5, 15), ylim=(120, 200))
     ax.legend(loc="lower center")
     fig.tight_layout()
     return fig

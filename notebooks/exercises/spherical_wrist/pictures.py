@@ -6,6 +6,7 @@ import numpy as np
 
 from robokin import ITMO6R, deg, mm
 from robokin.show import figure, plot_postures
+from robokin.show.palette import FIRST, SECOND
 
 from .predictions import LEANING, fastest, joint4_speeds, noise, p1, p5, p7
 from .shared import D, zyz
@@ -62,18 +63,18 @@ def p6_view() -> Any:
         5,
     )
     ax, below = fig.subplots(2, 1, sharex=True, height_ratios=(2.6, 1))
-    for k, style, color in ((0, "o--", "#D55E00"), (2, "s-", "#0072B2")):
+    for k, style, color in ((0, "o--", SECOND), (2, "s-", FIRST)):
         ax.loglog(thetas, worst[:, k], style, color=color, lw=2)
         below.plot(thetas, 100 * lost[:, k], style, color=color, lw=2)
-    ax.text(2e-7, 3e-4, "textbook, where it gives a number", color="#B24A00", ha="right")
-    ax.text(1e-6, 3e-14, "ψ measured from φ", color="#0072B2")
+    ax.text(2e-7, 3e-4, "textbook, where it gives a number", color=SECOND, ha="right")
+    ax.text(1e-6, 3e-14, "ψ measured from φ", color=FIRST)
     ax.set(
         ylabel="worst of 200 postures",
         xlim=(3, 3e-17),
         ylim=(3e-17, 20),
         title="Near the singularity the textbook loses digits, then the number itself",
     )
-    below.text(3e-7, 15, "textbook", color="#B24A00", ha="right")
+    below.text(3e-7, 15, "textbook", color=SECOND, ha="right")
     below.set(xlabel="θ, rad", ylabel="NaN, % of 200", ylim=(-5, 50))
     fig.align_ylabels()
     fig.subplots_adjust(bottom=0.12, top=0.93, hspace=0.1)
@@ -99,7 +100,7 @@ def p8_view() -> Any:
         2.4,
     )
     ax = fig.subplots()
-    for miss, color, at in ((2, "#0072B2", 2.012), (1, "#B24A00", 2.004)):
+    for miss, color, at in ((2, FIRST, 2.012), (1, SECOND, 2.004)):
         t, speed = joint4_speeds(miss * mm)
         near = abs(t - 2) <= 0.05
         ax.plot(t[near], speed[near], color=color, lw=2)

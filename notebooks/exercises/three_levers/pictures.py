@@ -1,17 +1,15 @@
 """Views that open after the guess, for the predictions of this lab."""
 
-from collections.abc import Iterator
 from typing import Any
 
 import numpy as np
 
 from robokin import deg
-from robokin.show import JOINT_STYLES, Sketch, animate, figure
+from robokin.show import Sketch, animate, curves, figure
+from robokin.show.palette import AREA, FAINT, FIRST_AREA, INK, PAPER, SECOND, SOFT
 
 from . import predictions as of
 from .shared import ARM, K, direction
-
-BLUE = "#7FB8D8"
 
 
 def panels(alt: str, count: int = 1, height: float = 3.5, **keywords: Any) -> tuple[Any, Any]:
@@ -19,13 +17,6 @@ def panels(alt: str, count: int = 1, height: float = 3.5, **keywords: Any) -> tu
     fig = figure(alt, height=height)
     fig.set_layout_engine("tight")
     return fig, fig.subplots(1, count, **keywords)
-
-
-def joints() -> Iterator[tuple[int, str, dict[str, Any]]]:
-    """Each joint with its letter and its line style."""
-    for joint, (letter, style) in enumerate(zip("γβα", JOINT_STYLES[:3], strict=True)):
-        dash = (0, style["dash"]) if style["dash"] else "-"
-        yield joint, letter, {"color": style["color"], "ls": dash}
 
 
 def p1_view() -> Any:
@@ -52,9 +43,9 @@ def p2_view() -> Any:
         "180 degrees alone at 3 m.",
         height=3.4,
     )
-    ax.fill_between(KO, low, 180, color=BLUE, linewidth=0)
+    ax.fill_between(KO, low, 180, color=FIRST_AREA, linewidth=0)
     for at in (of.NEAR, of.FAR):
-        ax.plot([at, at], [180 - of.width(at), 180], "k", lw=2)
+        ax.plot([at, at], [180 - of.width(at), 180], color=INK, lw=2)
         told = f"{of.width(at):.1f}°"
         ax.annotate(told, (at, 150), (-6, 0), textcoords="offset points", ha="right")
     ax.set(xlabel="distance KO, m", ylabel="free angle α, °", xlim=(1, 3), ylim=(0, 182))
@@ -74,16 +65,21 @@ def p3_view() -> Any:
         width_ratios=[1, 1.15],
     )
     for a in np.linspace(low, high, 9):
-        left.plot(*ARM.points(ARM.family(K, a)).T, "o-", color="0.7", markersize=4, lw=1.3)
+        left.plot(*ARM.points(ARM.family(K, a)).T, "o-", color=FAINT, markersize=4, lw=1.3)
     same = of.p3()["trapezoid"]
-    left.plot(*ARM.points(ARM.family(K, same * deg)).T, "ko-", markersize=6, lw=3)
+    left.plot(*ARM.points(ARM.family(K, same * deg)).T, "o-", color=INK, markersize=6, lw=3)
     left.set(aspect="equal", xlabel="x, m", ylabel="y, m", title="Three equal sides: a trapezoid")
-    for joint, name, style in joints():
-        right.plot(alphas / deg, family[:, joint], lw=2.2, **style)
-        right.text(182, family[-1, joint], name, color=style["color"], va="center")
-    right.plot(same, same, "ko", markersize=7)
+    curves(
+        right,
+        alphas / deg,
+        dict(zip("γβα", family.T, strict=True)),
+        joints=range(3),
+        xlabel="free angle α, °",
+        ylabel="γ, β, α, °",
+        title="β = α at one place",
+    )
+    right.plot(same, same, "o", color=INK, markersize=7)
     right.annotate(f"{same:.1f}°", (same, same), (12, -3), textcoords="offset points")
-    right.set(xlabel="free angle α, °", ylabel="γ, β, α, °", title="β = α at one place")
     return fig
 
 
@@ -108,12 +104,12 @@ def p5_view() -> Any:
         "of it is usable; then less and less, and from about 151 degrees on nothing.",
         height=3.4,
     )
-    ax.fill_between(phi, *every, facecolor="0.92", edgecolor="0.6", hatch="//", linewidth=0)
-    ax.fill_between(phi, *kept, color=BLUE, linewidth=0)
+    ax.fill_between(phi, *every, facecolor=AREA, edgecolor=SOFT, hatch="//", linewidth=0)
+    ax.fill_between(phi, *kept, color=FIRST_AREA, linewidth=0)
     ax.text(30, 125, "usable", fontweight="bold")
-    box = {"facecolor": "white", "edgecolor": "none", "alpha": 0.9}
+    box = {"facecolor": PAPER, "edgecolor": "none", "alpha": 0.9}
     ax.text(128, 160, "γ above 180°", bbox=box)
-    ax.axvline(of.BEHIND, color="black", lw=1)
+    ax.axvline(of.BEHIND, color=INK, lw=1)
     ax.set(xlabel="direction of K seen from O, °", ylabel="α, °", xlim=(0, 180), ylim=(60, 182))
     ax.set_title(f"{of.BEHIND_KO:g} m from the base: behind the arm the family dies out")
     return fig
@@ -130,16 +126,20 @@ def p6_view() -> Any:
         "of these places.",
         height=3.7,
     )
-    ax.plot(alphas / deg, change.sum(axis=-1), "k", lw=2.4)
-    ax.plot(exact[2] / deg, S / deg, "kD", markersize=7)
-    ax.text(117, change.sum(axis=-1)[abs(alphas / deg - 117).argmin()] + 1.5, "S", ha="right")
-    for joint, name, style in joints():
-        ax.plot(alphas / deg, change[:, joint], lw=1.8, **style)
-        at = abs(alphas / deg - 119).argmin()
-        ax.text(119.3, change[at, joint] - 1.5, name, color=style["color"], va="top")
     stays = "γβα"[int(np.argmin(abs(exact - before)))]
-    ax.set(xlabel="α, °", ylabel="change, °", xlim=(86, 121), ylim=(0, 45))
-    ax.set_title(f"S is least where {stays} stays as it was")
+    curves(
+        ax,
+        alphas / deg,
+        dict(zip("γβα", change.T, strict=True)),
+        joints=range(3),
+        xlabel="α, °",
+        ylabel="change, °",
+        title=f"S is least where {stays} stays as it was",
+    )
+    ax.plot(alphas / deg, change.sum(axis=-1), color=INK, lw=2.4)
+    ax.plot(exact[2] / deg, S / deg, "D", color=INK, markersize=7)
+    ax.text(117, change.sum(axis=-1)[abs(alphas / deg - 117).argmin()] + 1.5, "S", ha="right")
+    ax.set(xlim=(86, 121), ylim=(0, 45))
     return fig
 
 
@@ -156,11 +156,11 @@ def p7_view() -> Any:
     for ax, step in zip(axes, (of.COARSE, of.FINE), strict=True):
         near = exact[2] + np.linspace(-1.8, 1.8, 801) * step * deg
         curve = abs(ARM.family(target, near) - before).sum(axis=-1) / deg
-        ax.plot(near / deg, curve, "k", lw=1.6)
+        ax.plot(near / deg, curve, color=INK, lw=1.6)
         rows = ARM.table(target, step * deg)
         rows = rows[abs(rows[:, 2] - exact[2]) < 1.8 * step * deg]
-        ax.plot(rows[:, 2] / deg, abs(rows - before).sum(axis=-1) / deg, "o", color="#D55E00")
-        ax.plot(exact[2] / deg, S / deg, "kD", markersize=7)
+        ax.plot(rows[:, 2] / deg, abs(rows - before).sum(axis=-1) / deg, "o", color=SECOND)
+        ax.plot(exact[2] / deg, S / deg, "D", color=INK, markersize=7)
         ax.ticklabel_format(useOffset=False)
         ax.locator_params(axis="x", nbins=5)
         ax.set(xlabel="α, °", ylabel="S, °", title=f"rows {step:g}° apart, ◆ exact")
@@ -175,18 +175,20 @@ def p8_view() -> Any:
         "The sum of the changes and the largest of them against alpha: the sum is least at "
         f"{least[0]:.0f} degrees, the largest at {least[1]:.0f} degrees."
     )
-    best = []
-    for curve, style, name, side, place in (
-        (change.sum(axis=-1), "-", "S, the sum", "right", (166, 68)),
-        (change.max(axis=-1), "--", "the longest motor: the time", "left", (160, 25)),
-    ):
-        ax.plot(alphas / deg, curve, style, color="black", lw=2)
-        k = int(curve.argmin())
-        best.append(alphas[k] / deg)
-        ax.plot(best[-1], curve[k], "kD", markersize=7)
-        ax.text(*place, name, ha=side)
-    ax.set(xlabel="α, °", ylabel="°")
-    ax.set_title(f"Least sum at α = {best[0]:.0f}°, least time at {best[1]:.0f}°")
+    both = {
+        "S, the sum": change.sum(axis=-1),
+        "the longest motor: the time": change.max(axis=-1),
+    }
+    curves(
+        ax,
+        alphas / deg,
+        both,
+        xlabel="α, °",
+        ylabel="change, °",
+        title=f"Least sum at α = {least[0]:.0f}°, least time at {least[1]:.0f}°",
+    )
+    for at, curve in zip(least, both.values(), strict=True):
+        ax.plot(at, curve.min(), "D", color=INK, markersize=7)
     return fig
 
 
@@ -197,8 +199,8 @@ def p9_view() -> Any:
         "hardly any loss.",
         height=3.2,
     )
-    ax.bar(np.arange(1, len(lost) + 1), lost, width=1.0, color="#56B4E9")
-    ax.axhline(5, color="black", lw=1, ls="--")
+    ax.bar(np.arange(1, len(lost) + 1), lost, width=1.0)
+    ax.axhline(5, color=INK, lw=1, ls="--")
     ax.set(xlabel="tours, sorted", ylabel="loss, %")
     ax.set_title(f"{facts['count']} of {facts['tours']} tours lose more than 5 %")
     return fig
@@ -211,10 +213,12 @@ def p10_view() -> Any:
         "rise evenly; dice are the steepest, equal angles and least movement lie close together.",
         height=3.4,
     )
-    styles = zip(("#D55E00", "#009E73", "#0072B2"), ("--", ":", "-"), strict=True)
-    for (name, each), (color, dash) in zip(of.turns().items(), styles, strict=True):
-        ax.plot(np.append(0, np.cumsum(each)), color=color, ls=dash, lw=1.8, label=name)
-    ax.legend(frameon=False)
-    ax.set(xlabel="tasks done", ylabel="turns in all, °")
-    ax.set_title(f"Dice turn the joints {facts['percent']:.0f} % more than the least movement")
+    curves(
+        ax,
+        np.arange(facts["tasks"] + 1),
+        {name: np.append(0, np.cumsum(each)) for name, each in of.turns().items()},
+        xlabel="tasks done",
+        ylabel="turns in all, °",
+        title=f"Dice turn the joints {facts['percent']:.0f} % more than the least movement",
+    )
     return fig

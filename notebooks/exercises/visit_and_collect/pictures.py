@@ -7,7 +7,8 @@ import numpy as np
 
 from robokin import deg, ptp
 from robokin.jobs.visit_collect import principal_postures
-from robokin.show import Sketch, figure
+from robokin.show import Sketch, bars, figure
+from robokin.show.palette import COMPARED, INK, REMARK, SOFT
 
 from .predictions import DIP, LOW1, SPEEDS, p1, p2, p3, p6, p7, p8, p9
 from .shared import ARM, L1, L2
@@ -23,7 +24,7 @@ def p1_view() -> Any:
     title = "Link 1 flat, link 2 square to it: downwards"
     sketch = Sketch(says, title=title, **SIDE | {"x": "y", "height": 3.6})
     sketch.levers([(0, 0), (L1, 0), (L1, -L2)], ["O1", "O2", "tool"])
-    sketch.ax.axhline(0, color="0.6", lw=1)
+    sketch.ax.axhline(0, color=SOFT, lw=1)
     sketch.ax.margins(0.22)
     return sketch
 
@@ -48,7 +49,7 @@ def p3_view() -> Any:
     )
     fig = figure(says, height=3)
     ax = fig.subplots()
-    ax.bar(np.arange(9) + 0.5, shares, width=0.92, color="#0072B2")
+    ax.bar(np.arange(9) + 0.5, shares, width=0.92)
     ax.set_title("The nearer to the axis, the easier it is to lean over backwards")
     ax.set(xlabel="distance from axis 1, m", ylabel="points with a second posture, %")
     ax.set(xlim=(0, 9), ylim=(0, 105))
@@ -67,8 +68,8 @@ def p4_view() -> Any:
     sketch = Sketch(says, title=title, unit="m", height=3.6)
     sketch.levers([(0, 0), (-2, 0.01)], ["axis 1", ""])
     turn = np.linspace(q[0], q[1], 200)
-    sketch.ax.plot(np.cos(turn), np.sin(turn), color="black", lw=1.3)
-    tip = {"arrowstyle": "-|>", "color": "black"}
+    sketch.ax.plot(np.cos(turn), np.sin(turn), color=INK, lw=1.3)
+    tip = {"arrowstyle": "-|>", "color": INK}
     sketch.ax.annotate("", (-1, -0.02), (-0.985, -0.17), arrowprops=tip)
     sketch.ax.text(-2.1, 0.15, "both points", ha="right")
     sketch.ax.text(-2.1, -0.25, "stop at ±180°", ha="right")
@@ -93,13 +94,13 @@ def p6_view() -> Any:
     )
     fig = figure(says, height=2.8)
     ax = fig.subplots()
-    names = ["none", "1 point", "2 points", "3 points"]
-    bars = ax.barh(names, counts[:4], color=["#9DB7C9", "#E69F00", "#D55E00", "#CC79A7"])
-    ax.bar_label(bars, padding=4)
-    ax.invert_yaxis()
-    ax.set(xlabel="tasks of 200, seven random points each", xlim=(0, 200))
-    ax.set_title(f"Nearest first loses a point or more in {some} of 200 tasks")
-    ax.spines[["top", "right"]].set_visible(False)
+    bars(
+        ax,
+        dict(zip(("none", "1 point", "2 points", "3 points"), counts[:4], strict=True)),
+        xlabel="tasks of 200, seven random points each",
+        title=f"Nearest first loses a point or more in {some} of 200 tasks",
+    )
+    ax.set_xlim(0, 200)
     fig.tight_layout()
     return fig
 
@@ -113,8 +114,8 @@ def p7_view() -> Any:
     title = f"The elbow lies on the floor, the tool is {height:g} m above the origin"
     sketch = Sketch(says, title=title, **SIDE)
     sketch.levers([(0, 0), (-LOW1, 0), (0, height)], ["O1", "O2", "tool"])
-    sketch.ax.axhline(0, color="0.6", lw=1)
-    sketch.ax.axvline(0, color="0.6", lw=1, ls=":")
+    sketch.ax.axhline(0, color=SOFT, lw=1)
+    sketch.ax.axvline(0, color=SOFT, lw=1, ls=":")
     sketch.ax.text(-0.1, 0.15 * height, "axis 1", ha="right")
     sketch.ax.margins(0.22)
     return sketch
@@ -134,9 +135,9 @@ def p8_view() -> Any:
     for k, dashed in ((0, True), (int(side[:, 1].argmin()), False)):
         elbow = L1 * np.array([np.sin(way[k, 1]), np.cos(way[k, 1])])
         sketch.levers([np.zeros(2), elbow, side[k]], dashed=dashed)
-    sketch.ax.plot(*side.T, color="black", lw=1.5)
-    sketch.ax.axhline(0, color="#009E73", lw=2)
-    sketch.ax.text(6.2, -0.3, "floor", color="#009E73")
+    sketch.ax.plot(*side.T, color=INK, lw=1.5)
+    sketch.ax.axhline(0, color=SOFT, lw=2)
+    sketch.ax.text(6.2, -0.3, "floor", color=SOFT)
     sketch.point(DIP[0, [0, 2]], "start", away=(1, 0))
     sketch.point(DIP[1, [0, 2]], "goal", away=(1, 1))
     sketch.ax.margins(0.18)
@@ -152,13 +153,13 @@ def p9_view() -> Any:
     )
     fig = figure(says, height=3.4)
     ax = fig.subplots()
-    for name, line, color in (("even", "-", "#0072B2"), ("uneven", "--", "#D55E00")):
+    for name, (color, line) in zip(("even", "uneven"), COMPARED, strict=False):
         lost = facts["lost"][name]
         ax.plot(SPEEDS, lost, line, color=color, lw=2.2, marker="o", ms=4)
         higher = lost[-1] == max(facts["lost"]["even"][-1], facts["lost"]["uneven"][-1])
         ax.text(142, lost[-1] + (3 if higher else -3), name, color=color, va="center")
-    ax.axvline(facts["rule"], color="0.4", ls=":", lw=1.3)
-    ax.text(facts["rule"] - 1, 45, "c v / g = 1", color="0.4", ha="right")
+    ax.axvline(facts["rule"], color=REMARK, ls=":", lw=1.3)
+    ax.text(facts["rule"] - 1, 45, "c v / g = 1", color=REMARK, ha="right")
     ax.set(xlabel="belt speed, mm/s", ylabel="objects missed of 200", xlim=(58, 150), ylim=(-2, 58))
     ax.set_title(f"One arm: even objects up to {even} mm/s, uneven up to {uneven}")
     fig.tight_layout()
