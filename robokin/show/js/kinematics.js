@@ -284,8 +284,8 @@ const inner = (a, b) => a.reduce((sum, x, k) => sum + x * b[k], 0);
 
 /**
  * Rotates vectors in pairs until all are perpendicular (one-sided Jacobi, Hestenes 1958), and
- * returns them with the rows of the rotation. Their lengths are the singular values, accurate to
- * the last digits even near zero, where the root of an eigenvalue is not.
+ * returns them, their lengths, and the rows of the rotation. The lengths are the singular values,
+ * accurate to the last digits even near zero, where the root of an eigenvalue is not.
  * @param {number[][]} vectors
  */
 function squared(vectors) {
@@ -311,7 +311,7 @@ function squared(vectors) {
           ];
       }
   }
-  return {lengths: a.map(vector => Math.sqrt(inner(vector, vector))), turns};
+  return {vectors: a, lengths: a.map(vector => Math.sqrt(inner(vector, vector))), turns};
 }
 
 /**
@@ -333,14 +333,40 @@ export function distance_from_singularity(arm, q) {
 }
 
 /**
- * The semi-axes of the ellipsoid of tool velocities for joint speeds of norm 1.
- * @param {PageLink[]} chain
+ * The semi-axes of the ellipsoid of tool velocities for joint speeds of norm 1: rad/s, and reaches
+ * per second for prismatic joints. With `held`, of the joint speeds that do not rotate the tool, as
+ * in velocity_ellipsoid of dexterity.py.
+ * @param {ArmData} arm
  * @param {number[]} q
+ * @param {boolean} held
  * @returns {number[][]}  three vectors in m/s, the longest first
  */
-export function ellipsoid(chain, q) {
-  const {lengths, turns} = squared(jacobian(chain, q).slice(0, 3));
+export function ellipsoid({chain, reach, prismatic}, q, held) {
+  const rows = jacobian(chain, q).map(row => row.map((x, j) => (prismatic[j] ? reach * x : x)));
+  const moves = rows.slice(0, 3);
+  const {lengths, turns} = squared(
+    held && chain.length > 3 ? without(moves, rows.slice(3)) : moves,
+  );
   return [0, 1, 2]
     .sort((i, j) => lengths[j] - lengths[i])
     .map(i => turns[i].map(part => part * lengths[i]));
+}
+
+/**
+ * Removes from vectors their components in the space that others span.
+ * @param {number[][]} vectors
+ * @param {number[][]} others
+ */
+function without(vectors, others) {
+  const span = squared(others),
+    least = 1e-9 * Math.max(...span.lengths);
+  const units = span.vectors
+    .map((way, k) => way.map(x => x / span.lengths[k]))
+    .filter((_, k) => span.lengths[k] > least);
+  return vectors.map(vector =>
+    units.reduce((rest, unit) => {
+      const part = inner(rest, unit);
+      return rest.map((x, k) => x - part * unit[k]);
+    }, vector),
+  );
 }
