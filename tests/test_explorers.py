@@ -47,6 +47,7 @@ from robokin import (
     two_link,
     within,
 )
+from robokin.arms.dexterity import velocity_ellipsoid
 from robokin.show import animate, joint_explorer, motion_explorer, target_explorer
 from robokin.show.camera import arm_points, project
 from robokin.show.joiner import script
@@ -760,8 +761,8 @@ def test_motion_plays_to_its_end_and_keeps_its_numbers(opened):
 # --- Dragging handles -----------------------------------------------------------------------------
 
 
-def follows_the_pointer(shown, name, key, parts):
-    """Drag a handle along the curve on which a key moves it, and assert that it stays under the
+def follows_the_pointer(shown, name, parts, *keys):
+    """Drag a handle along the curve on which keys move it, and assert that it stays under the
     pointer, shows what the keys have shown, and changes no values except `parts`. Return the length
     of the path on the screen in px, or None if it hardly moves because its axis points at the eye,
     or stops at the edge of the scene.
@@ -770,11 +771,11 @@ def follows_the_pointer(shown, name, key, parts):
     places, codes = [], []
     shown.take(name)  # the camera does not move while a handle is held
     for _ in range(3):
-        shown.press(name, key)
+        shown.press(name, *keys)
         seen = shown.look()
         places.append(np.array(seen.handles[name]["at"], dtype=float))
         codes.append(seen)
-    assert codes[0].code != start.code, f"{name}: {key} changes nothing"
+    assert codes[0].code != start.code, f"{name}: {keys} change nothing"
     shown.press(name, "Home")
     shown.page.mouse.up()
     back = shown.look()
@@ -805,8 +806,8 @@ def test_dragging_moves_only_the_held_joint(opened, arm):
     ends = arm.limits / [[unit["size"]] for unit in shown.data["units"]]
     for j, (_, high) in enumerate(ends):
         name = f"q{j + 1}"
-        key = "Shift+ArrowRight" if shown.look().boxes[name] + 30 < high else "Shift+ArrowLeft"
-        if follows_the_pointer(shown, name, key, {name}):
+        key = "Shift+ArrowRight" if shown.look().boxes[name] + 60 < high else "Shift+ArrowLeft"
+        if follows_the_pointer(shown, name, {name}, key, key):
             seen += 1
     assert seen >= 0.5 * len(ends)
     shown.take("q1")
@@ -827,7 +828,7 @@ def test_target_follows_the_pointer_along_arrows_and_arcs(opened, arm):
     )
     for name in sorted(names):
         parts = place if name in "xyz" else turns
-        if follows_the_pointer(shown, name, "Shift+ArrowLeft", parts):
+        if follows_the_pointer(shown, name, parts, "Shift+ArrowLeft"):
             seen.add(name)
         before = shown.code()["target"]
         shown.press(name, "ArrowRight")
@@ -956,7 +957,7 @@ def test_dragging_moves_only_the_held_station(opened, arm):
         shown.press(name, "Home")
         assert shown.look().code == before.seen.code
     for c in "xyz" if arm is IRB140 else "z":
-        follows_the_pointer(shown, f"via {c}", "Shift+ArrowRight", {f"via {c}"})
+        follows_the_pointer(shown, f"via {c}", {f"via {c}"}, "Shift+ArrowRight")
 
 
 CANVASES = {
@@ -1140,18 +1141,40 @@ def test_sliders_and_menus_have_names_and_value_texts(opened):
     assert scara.rk.get_by_role("slider", name="angle, °", exact=True).count() == 1
 
 
-def test_ellipsoid_and_axes_can_be_switched_on_and_off(opened):
+def test_axes_can_be_switched_on_and_off(opened):
     for kind in ("joint", "target"):
         shown = opened(KINDS[kind](), IRB140)
         before = shown.look()
-        for name in ("ellipsoid of tool velocities, free to turn", "joint axes"):
-            box = shown.rk.get_by_role("checkbox", name=name)
-            box.click()  # the joint explorer initially shows its axes
-            drawn = shown.look()
-            assert drawn.pixels != before.pixels and drawn.code == before.code
-            box.click()
-            assert shown.look().pixels == before.pixels
-        assert shown.rk.get_by_role("checkbox", name="joint axes").is_checked() == (kind == "joint")
+        box = shown.rk.get_by_role("checkbox", name="joint axes")
+        assert box.is_checked() == (kind == "joint")
+        box.click()
+        drawn = shown.look()
+        assert drawn.pixels != before.pixels and drawn.code == before.code
+        box.click()
+        assert shown.look().pixels == before.pixels
+
+
+def test_ellipsoid_is_of_the_tool_that_may_turn_or_is_held(opened):
+    q = np.array([0, 60, -170, 0, 40, 0]) * deg
+    for shown in (
+        opened(joint_explorer(PUMA560, q, singular=True), PUMA560),
+        opened(target_explorer(PUMA560), PUMA560),
+    ):
+        before = shown.look()
+        q = np.array(shown.code(before)["q"])
+        free = np.linalg.svd(PUMA560.jacobian(q)[:3], compute_uv=False)
+        held = np.linalg.norm(velocity_ellipsoid(PUMA560, q), axis=-2)
+        pictures = [before.pixels]
+        for k, speeds in ((1, free), (2, held)):
+            shown.choose("ellipsoid", k)
+            seen = shown.look()
+            told = re.search(r"Semi-axes: (.*), (.*), (.*) mm/s\.$", seen.says).groups()
+            assert [float(x) * mm for x in told] == pytest.approx(speeds, abs=0.51 * mm)
+            assert seen.code == before.code
+            pictures.append(seen.pixels)
+        assert len(set(map(tuple, pictures))) == 3, "two ellipsoids look the same"
+        shown.choose("ellipsoid", 0)
+        assert shown.look().pixels == before.pixels and shown.look().says == before.says
 
 
 def test_ghost_postures_show_all_joints(opened):
@@ -1193,13 +1216,78 @@ def test_arm_fills_the_scene_on_opening(opened):
             assert share.max() > 0.45, (make.__name__, arm.name, share)
 
 
-def test_rings_of_an_arm_do_not_overlap(opened):
-    for arm in (IRB140, SCARA, PUMA560):
-        shown = opened(joint_explorer(arm, singular=True), arm)
-        boxes = [shown.handle(f"q{i + 1}").bounding_box() for i in range(len(arm.links))]
-        places = np.array([(box["x"], box["y"]) for box in boxes])
-        apart = np.linalg.norm(places[:, None] - places, axis=-1)
-        assert apart[np.triu_indices(len(places), 1)].min() > 24, arm.name
+def pixels(shown, points):
+    """The places of points (..., 3) on the page, for a scene that has not grown."""
+    scene, box = shown.data["scene"], shown.rk.locator("canvas").first.bounding_box()
+    seen = np.array(scene["seen"])
+    if scene["flat"] is None:
+        seen = np.concatenate([seen, [[x, y, scene["floor"][0][2]] for x, y, _ in seen]])
+    flat, room = project(seen, scene["view"]), np.array([box["width"] - 40, box["height"] - 54])
+    low, high = flat.min(axis=0), flat.max(axis=0)
+    way = (project(points, scene["view"]) - (low + high) / 2) * (room / (high - low)).min()
+    return [box["x"] + 20, box["y"] + 28] + room / 2 + way * [1, -1]
+
+
+@pytest.mark.parametrize("touched", [False, True], ids=["mouse", "touch"])
+def test_rings_stand_at_the_axes_of_their_joints_and_do_not_overlap(browser, opened, touched):
+    size, reach, apart = (44, 84, 39) if touched else (26, 60, 24)
+    options = {"has_touch": True, "is_mobile": True} if touched else {}
+    context = browser.new_context(viewport={"width": 1000, "height": 900}, **options)
+    context.add_init_script(WATCH)
+    bent = np.array([20, 30, -40, 50, 60, 40]) * deg
+    for arm, q in (
+        (IRB140, None),
+        (IRB140, np.zeros(6)),
+        (PUMA560, None),
+        (PUMA560, bent),
+        (ITMO6R, bent),
+        (UR5, None),
+        (SCARA, None),
+    ):
+        shown = opened(joint_explorer(arm, q), arm, within=context)
+        q = np.array(shown.data["q"])
+        places = np.array([shown.look().handles[f"q{i + 1}"]["at"] for i in range(len(q))])
+        box = shown.handle("q1").bounding_box()
+        assert min(box["width"], box["height"]) > size - 0.01
+        between = np.linalg.norm(places[:, None] - places, axis=-1)
+        assert between[np.triu_indices(len(q), 1)].min() > apart, arm.name
+        for i, link in enumerate(arm.links):
+            joint = arm.frames(q)[i] @ link.before
+            here, there = pixels(shown, joint @ np.stack([np.zeros(3), link.axis]))
+            way = (there - here) / np.linalg.norm(there - here)
+            off = places[i] - here
+            # as far as the ring is wide, and its neighbours may push the handle by a half of theirs
+            assert abs(np.linalg.det([way, off])) < 0.5 * reach + size / 2, (arm.name, i + 1)
+            assert np.linalg.norm(off) < 0.85 * reach + size / 2, (arm.name, i + 1)
+    context.close()
+
+
+def test_wrist_centre_is_marked_and_stays_while_the_wrist_turns(opened):
+    q = np.array([20, 70, -50, 30, 60, 40]) * deg
+    shown = opened(joint_explorer(ITMO6R, q, wrist=True), ITMO6R)
+    arcs = """() => new Promise(done => {
+      const pen = CanvasRenderingContext2D.prototype, {arc} = pen, all = [];
+      pen.arc = function (x, y, r, ...more) {
+        if (r === 3.5) all.push([x, y]);
+        return arc.call(this, x, y, r, ...more);
+      };
+      document.querySelector("[data-handle=q4]").dispatchEvent(
+        new KeyboardEvent("keydown", {key: "ArrowUp", bubbles: true}));
+      requestAnimationFrame(() => requestAnimationFrame(() => { pen.arc = arc; done(all); }));
+    })"""
+    box, wanted = shown.rk.locator("canvas").first.bounding_box(), None
+    for q4, q5, q6 in ((30, 60, 40), (-170, 60, 40), (90, 100, 40), (0, 0, -170)):
+        for name, value in (("q4", q4), ("q5", q5), ("q6", q6)):
+            shown.type(name, value)
+        assert "wrist centre" in shown.look().words[0].split("|")
+        [mark] = shown.page.evaluate(arcs)
+        q[3:] = np.array([q4, q5, q6]) * deg
+        # 004, table: the flange is 200 mm from the wrist centre, along its z axis
+        centre = ITMO6R.fk(q) @ np.array([0, 0, -200 * mm])
+        wanted = pixels(shown, centre)
+        assert np.array(mark) + [box["x"], box["y"]] == pytest.approx(wanted, abs=0.5)
+    points = pixels(shown, arm_points(ITMO6R, np.array(shown.data["q"])))
+    assert np.ptp(points[:, 1]) > 0.5 * box["height"]
 
 
 @pytest.mark.parametrize("scheme", ["light", "dark"])
@@ -1349,6 +1437,10 @@ def test_errors_for_wrong_calls_name_what_is_wanted():
         (lambda: joint_explorer("IRB-140"), TypeError, "arm: wanted an Arm"),
         (lambda: joint_explorer(IRB140, np.zeros(5)), ValueError, "q: wanted"),
         (lambda: joint_explorer(IRB140, singular=1), ValueError, "singular: wanted True or False"),
+        (lambda: joint_explorer(IRB140, wrist=1), ValueError, "wrist: wanted True or False"),
+        (lambda: joint_explorer(UR5, wrist=True), ValueError, "wrist: wanted an arm whose last"),
+        (lambda: joint_explorer(SCARA, wrist=True), ValueError, "wrist: wanted an arm whose last"),
+        (lambda: joint_explorer(LEVERS, wrist=True), ValueError, "wrist: wanted an arm whose"),
         (lambda: joint_explorer(IRB140, np.zeros((2, 6))), ValueError, "q: wanted one posture"),
         (lambda: target_explorer(3), TypeError, "arm: wanted a ClosedFormArm"),
         (lambda: target_explorer(unknown), TypeError, "arm: Unknown has no inverse for pages"),

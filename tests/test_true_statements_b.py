@@ -91,10 +91,21 @@ def wrist_speeds(q_deg):
     return np.linalg.svd((places[0] - places[1]).T / 2e-6)[1]
 
 
-def test_joint_5_leaves_the_ellipsoid_unchanged_and_joint_3_flattens_it():
-    five, three = said("07", "near-look", r"joint 5 to (\S+): it stays.*joint 3 to (\S+)°: it goes")
+def test_joint_5_flattens_the_ellipsoid_of_the_held_tool_and_joint_3_that_of_the_free_tool():
+    five, most, least, *stated, three = said(
+        "07",
+        "near-look",
+        r"joint 5 to (\S+): the shortest semi-axis goes from (\S+) mm/s to (\S+)\..*for every "
+        r"\$q_5\$, (\S+), (\S+) and (\S+) mm/s.*joint 3 to (\S+)°: it goes",
+    )
     before = wrist_speeds([0, 60, -170, 0, 40, 0])
-    assert wrist_speeds([0, 60, -170, 0, five, 0]) == pytest.approx(before, rel=1e-6)
+    assert before == pytest.approx(np.array(stated) * mm, abs=0.5 * mm)
+    for q5 in np.linspace(-100, 100, 21):
+        assert wrist_speeds([0, 60, -170, 0, q5, 0]) == pytest.approx(before, rel=1e-6)
+    for q5, wanted in ((40, most), (five, least)):
+        J = PUMA560.jacobian(np.array([0, 60, -170, 0, q5, 0]) * deg)
+        still = np.linalg.svd(J[3:])[2][3:].T
+        assert np.linalg.svd(J[:3] @ still)[1][2] == pytest.approx(wanted * mm, abs=0.5 * mm)
     flat = wrist_speeds([0, 60, three, 0, five, 0])
     assert flat[2] / flat[0] < 0.002 < before[2] / before[0]
     for q in (*tries("07", "near-ellipsoid"), [0, 60, -100, 0, 40, 0]):

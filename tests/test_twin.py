@@ -48,6 +48,7 @@ from robokin import (
     within,
 )
 from robokin.arms import dh_links, unwrapped
+from robokin.arms.dexterity import velocity_ellipsoid
 from robokin.arms.elbow import elbow_arm
 from robokin.arms.geometry import ROUNDING
 from robokin.motion import refined_maximum
@@ -81,7 +82,8 @@ SHARES = {"postures": 4000, "places": 3000, "singular": 1200, "border": 1200, "f
 every_arm = pytest.mark.parametrize("name", ARMS)
 
 PAGE = """async () => {
-  const names = ["kinematics", "geometries", "branches", "levers", "motion", "recorded", "ticks"];
+  const names = ["kinematics", "dexterity", "geometries", "branches", "levers", "motion", "recorded",
+    "ticks"];
   for (const name of names)
     Object.assign(window, await import(`/${name}.js`));
   window.f64 = text => new Float64Array(Uint8Array.from(atob(text), c => c.charCodeAt(0)).buffer);
@@ -528,7 +530,7 @@ def test_page_computes_the_same_rotations(twin):
 
 @every_arm
 def test_page_computes_the_same_velocities(twin, name):
-    """The Jacobian, the velocity ellipsoid, and the pose that a posture reaches."""
+    """The Jacobian and the pose that a posture reaches."""
     arm, rng = ARMS[name], np.random.default_rng(9)
     n = len(arm.links)
     q = rng.uniform(*arm.limits.T, (200, n))
@@ -536,13 +538,6 @@ def test_page_computes_the_same_velocities(twin, name):
     body = "return nested(a, arm.limits.length).flatMap(q => "
     got = twin(body + "jacobian(arm.chain, q).flat());", arm, q, shape=(200, 6, n))
     close(got, arm.jacobian(q), 1e-14 * max(1, arm.reach))
-    axes = twin(body + "ellipsoid(arm.chain, q).flat());", arm, q, shape=(200, 3, 3))
-    linear_part = arm.jacobian(q)[:, :3]
-    close(axes.mT @ axes, linear_part @ linear_part.mT, 1e-13 * max(1, arm.reach) ** 2)
-    lengths = np.linalg.norm(axes, axis=-1)
-    values = np.zeros((200, 3))
-    values[:, : min(3, n)] = np.linalg.svd(linear_part, compute_uv=False)
-    close(lengths, values, 1e-14 * max(1, arm.reach))
 
     size = {Transform: 7, ScaraPose: 4, np.ndarray: 3}[arm.target]
     got = twin(body + "unposed(pose(arm, q)));", arm, q, shape=(200, size))
@@ -552,6 +547,39 @@ def test_page_computes_the_same_velocities(twin, name):
         close(Quaternion(got[:, 3:]).angle_to(tool.rotation), np.zeros(200), 3e-14)
     if size == 4:
         close(np.cos(got[:, 3] - q[:, :3].sum(axis=-1)), np.ones(200), 1e-14)
+
+
+@every_arm
+def test_page_computes_the_same_ellipsoids(twin, name):
+    """The ellipsoid of the free tool has the singular values of J_v, that of the held tool those of
+    J_v N, where N spans the null space of J_w: also in singular postures.
+    """
+    arm, rng = ARMS[name], np.random.default_rng(10)
+    n = len(arm.links)
+    q = rng.uniform(*arm.limits.T, (1000, n))
+    q[:100] = np.round(q[:100] / (np.pi / 4)) * (np.pi / 4)
+    q[100:200, -2:] = 0  # the singularity of a spherical wrist
+    jacobian = arm.jacobian(q) * np.where(arm.prismatic, arm.reach, 1)
+    for held in (False, True):
+        axes = twin(
+            "return nested(a, arm.limits.length).flatMap(q => "
+            f"ellipsoid(arm, q, {str(held).lower()}).flat());",
+            arm,
+            q,
+            shape=(1000, 3, 3),
+        )
+        for k, (move, turn) in enumerate(zip(jacobian[:, :3], jacobian[:, 3:], strict=True)):
+            if held and n > 3:
+                _, sizes, basis = np.linalg.svd(turn)
+                move = move @ basis[(sizes > 1e-9 * sizes.max()).sum() :].T
+            close(axes[k].T @ axes[k], move @ move.T, 1e-13 * max(1, arm.reach) ** 2)
+            wanted = np.zeros(3)
+            values = np.linalg.svd(move, compute_uv=False)
+            wanted[: len(values)] = values
+            close(np.linalg.norm(axes[k], axis=-1), wanted, 1e-13 * max(1, arm.reach))
+        if held:
+            lengths = np.linalg.norm(velocity_ellipsoid(arm, q), axis=-2)
+            close(np.linalg.norm(axes, axis=-1), lengths, 1e-11 * max(1, arm.reach))
 
 
 @pytest.mark.parametrize("kind", ["Transform", "ScaraPose", "point"])

@@ -352,7 +352,10 @@ CALLS = {
     "Player.save": (lambda path: PLAYER.save(path), dict(path=PAGE)),
     "Output.save": (lambda path: EXPLORER.save(path), dict(path=PAGE)),
     "figure": (figures.figure, dict(alt="words", width=3, height=2)),
-    "joint_explorer": (figures.joint_explorer, dict(arm=IRB140, q=SIX, singular=True)),
+    "joint_explorer": (
+        figures.joint_explorer,
+        dict(arm=IRB140, q=SIX, singular=True, wrist=True),
+    ),
     "target_explorer": (figures.target_explorer, dict(arm=SCARA)),
     "tour_explorer": (figures.tour_explorer, dict(task=TASK)),
     "motion_explorer": (

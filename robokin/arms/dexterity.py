@@ -54,6 +54,12 @@ def velocity_ellipsoid(arm: Arm, q: ArrayLike) -> Floats:
 
     Joint speeds are in rad/s, those of prismatic joints in reaches (`Arm.reach`) per second. The
     tool of an arm with up to three joints may rotate, since orientation is not part of its task.
+
+    The semi-axes are the singular values of J_v N, where the columns of N are an orthonormal basis
+    of the null space of J_w. Where J_w loses rank, no joint can rotate the tool about some axis:
+    the condition about that axis is void, N has one column more, and the ellipsoid is as large as
+    or larger than next to that posture. At a wrist singularity J_w usually keeps its rank, and one
+    semi-axis is zero.
     """
     instance(arm, Arm, "arm")
     jacobian = arm.jacobian(q)

@@ -43,10 +43,15 @@ WORDS: Mapping[str, str] = {
     "oneUsable": "1 of {all} branches is usable. {why}",
     "someUsable": "{count} of {all} branches are usable. {why}",
     "noneUsable": "No branch is usable. {why}",
-    "ellipsoid": "ellipsoid of tool velocities, free to turn",
+    "ellipsoid": "ellipsoid",
+    "off": "off",
+    "free": "tool velocities, free to turn",
+    "held": "tool velocities, orientation held",
+    "speeds": "Semi-axes: {values} {unit}/s.",
     "axes": "joint axes",
     "copy": "Copy as Python",
     "copied": "Copied",
+    "wrist": "wrist centre",
     "takeJoint": "joint {joint}",
     "takeFree": "target, in the plane of the screen",
     "takeAlong": "target along its {axis} axis",
@@ -134,11 +139,13 @@ def arm_page(
     opening: Floats,
     posed: Mapping[str, Transform] | None = None,
     *,
+    near: Floats | None = None,
     meant: str,
     code: str,
 ) -> ArmPage:
     """The page data that all explorers of an arm share, made from the postures (k, n) with which
-    the page opens and the targets in its scene.
+    the page opens and the targets in its scene. The postures `near` (k, n) have room in the picture
+    as well; by default those in which one joint has moved a little.
     """
     name, size = length_unit(extent(arm))
     return {
@@ -148,7 +155,7 @@ def arm_page(
         "arm": arm_data(arm),
         "unit": {"name": name, "size": size, "code": name},
         "units": units(arm),
-        "scene": _scene(arm, posed or {}, opening),
+        "scene": _scene(arm, posed or {}, opening, near),
         "controls": controls,
         "words": dict(WORDS),
         "meant": meant,
@@ -156,14 +163,17 @@ def arm_page(
     }
 
 
-def _scene(arm: Arm, posed: Mapping[str, Transform], opening: Floats) -> PageScene:
+def _scene(
+    arm: Arm, posed: Mapping[str, Transform], opening: Floats, near: Floats | None
+) -> PageScene:
     """A scene that shows the opening postures (k, n) and those near them, above the floor. The page
     zooms out when anything leaves the picture.
     """
     flat = common_plane([arm]) is not None
     turn = np.where(arm.prismatic, 0.03 * extent(arm), (40 if flat else 20) * deg)
     step = np.concatenate([np.diag(turn), -np.diag(turn)])
-    near = (opening[:, None] + step).reshape(-1, len(turn))
+    if near is None:
+        near = (opening[:, None] + step).reshape(-1, len(turn))
     postures = np.concatenate([opening, near])
     above = arm_points(arm, postures)[..., 2].min(axis=-1) > -0.01 * extent(arm)
     things = [Target(pose, name) for name, pose in posed.items()]
@@ -234,6 +244,7 @@ def picture(
     others: Sequence[Floats] = (),
     targets: Mapping[str, Transform] | None = None,
     frames: Sequence[Transform] = (),
+    points: Mapping[str, Floats] | None = None,
 ) -> plots.Figure:
     """Draw one posture boldly and the others faintly."""
     fig = plots.figure(alt, width=6.4, height=4.5)
@@ -247,5 +258,8 @@ def picture(
     scene.triad(arm.fk(q), width=2.4)
     for name, pose in (targets or {}).items():
         scene.triad(pose, name)
+    for name, point in (points or {}).items():
+        scene.mark(point, 0.0)
+        scene.label(name, point)
     scene.finish()
     return fig

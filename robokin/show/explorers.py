@@ -40,6 +40,7 @@ from .explorer import (
 )
 from .findings import flags
 from .levers_explorer import levers_explorer
+from .numbers import rounded
 from .page import FactRow, JointPage, TargetPage
 
 __all__ = ["Explorer", "joint_explorer", "target_explorer"]
@@ -51,12 +52,16 @@ MEANT = (
 )
 
 
-def joint_explorer(arm: Arm, q: ArrayLike | None = None, *, singular: bool = False) -> "Explorer":
+def joint_explorer(
+    arm: Arm, q: ArrayLike | None = None, *, singular: bool = False, wrist: bool = False
+) -> "Explorer":
     """Show an arm with a ring and a slider for each joint, all its frames, and the numbers of the
     flange. It opens at the posture q (n,), by default at one that is easy to see. With `singular`
     it also shows the distance from a singularity, says which singularities the posture has, and can
-    show the ellipsoid of tool velocities. It displays itself at the end of a cell. TypeError: not
-    an Arm. ValueError: a q that is not a posture.
+    show the ellipsoid of tool velocities. With `wrist` it marks the wrist centre, where the axes of
+    the last three joints meet, in a larger picture of a translucent arm. It displays itself at the
+    end of a cell. TypeError: not an Arm. ValueError: a q that is not a posture; `wrist`, and the
+    last three axes do not meet in one point.
 
     Roll, pitch and yaw are rotations about the fixed x, y and z axes of the base, in this order: R
     = Rz Ry Rx. (At a pitch of +-90 degrees roll and yaw rotate about the same line, and roll is set
@@ -73,6 +78,7 @@ def joint_explorer(arm: Arm, q: ArrayLike | None = None, *, singular: bool = Fal
         for i, (unit, (low, high)) in enumerate(zip(units(arm), limits, strict=True))
     ]
     singular = yes(singular, "singular")
+    centre = _wrist_centre(arm) if yes(wrist, "wrist") else None
     facts = (
         (f"position, {name}", "place", ["x", "y", "z"], 1 if size == mm else 3),
         ("orientation, °", "turns", ["roll", "pitch", "yaw"], 1),
@@ -95,6 +101,7 @@ def joint_explorer(arm: Arm, q: ArrayLike | None = None, *, singular: bool = Fal
         summary,
         controls,
         start[None],
+        near=_wrist_turns(arm, start) if wrist else None,
         meant=f"{TAKE}{TURNS} {MEANT if singular else ''}".strip(),
         code=f"{imports(arm)}\nq = np.array([{{q}}])\n{code_name(arm)}.fk(q)",
     )
@@ -104,9 +111,13 @@ def joint_explorer(arm: Arm, q: ArrayLike | None = None, *, singular: bool = Fal
         "q": start.tolist(),
         "rows": rows,
         "singular": singular,
+        "wrist": None if centre is None else rounded(centre),
     }
     frames = arm.frames(start)
-    still = picture(summary, arm, start, frames=[frames[i] for i in range(len(arm.links))])
+    points = {} if centre is None else {WORDS["wrist"]: arm.fk(start) @ centre}
+    still = picture(
+        summary, arm, start, frames=[frames[i] for i in range(len(arm.links))], points=points
+    )
     return Explorer(data, still)
 
 
@@ -225,6 +236,35 @@ def _open(arm: Arm) -> Floats:
     score = np.where(good, 1.0, 0.5) * near - 0.2 * abs(place[:, 1]) / size
     best: Floats = q[np.round(score, 6).argmax()] + 0.0
     return best
+
+
+# --- The wrist ------------------------------------------------------------------------------------
+
+
+def _wrist_centre(arm: Arm) -> Floats:
+    """The point (3,) in flange coordinates where the last three axes meet. ValueError: they do
+    not.
+    """
+    q = np.zeros(len(arm.links))
+    frames, last = arm.frames(q), range(len(q))[-3:]
+    places = np.stack([frames[i] @ arm.links[i].before.translation for i in last])
+    axes = np.stack([(frames[i] @ arm.links[i].before).rotation @ arm.links[i].axis for i in last])
+    across = np.eye(3) - axes[:, :, None] * axes[:, None]  # removes the component along an axis
+    offsets = (across @ places[..., None])[..., 0]
+    centre, _, rank, _ = np.linalg.lstsq(across.reshape(-1, 3), offsets.ravel())
+    off = np.linalg.norm(across @ centre - offsets, axis=-1).max()
+    if len(last) < 3 or rank < 3 or arm.prismatic[-3:].any() or off > 1e-9 * arm.reach:
+        raise ValueError(f"wrist: wanted an arm whose last three axes meet, got {arm.name}")
+    return arm.fk(q).inverse() @ centre
+
+
+def _wrist_turns(arm: Arm, q: Floats) -> Floats:
+    """Postures (k, n) in which one of the last three joints of q (n,) turns between its limits."""
+    turned = np.tile(q, (3, 25, 1))
+    for row, j in zip(turned, range(len(q))[-3:], strict=True):
+        low, high = arm.limits[j].clip(-180 * deg, 180 * deg)
+        row[:, j] = np.linspace(low, high, 25)
+    return turned.reshape(-1, len(q))
 
 
 # --- Targets --------------------------------------------------------------------------------------

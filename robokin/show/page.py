@@ -279,14 +279,15 @@ class ArmPage(ExplorerPage):
 
 
 class JointPage(ArmPage):
-    """The data of the joint explorer: the posture q, rows of numbers, and whether it mentions
-    singularities.
+    """The data of the joint explorer: the posture q, rows of numbers, whether it mentions
+    singularities, and the wrist centre in flange coordinates if it is marked.
     """
 
     kind: Literal["joint"]
     q: list[float]
     rows: list[FactRow]
     singular: bool
+    wrist: list[float] | None
 
 
 class LeversPage(ArmPage):

@@ -81,9 +81,10 @@ export function drawStood(one) {
       Math.max(2, 0.3 * thick),
       past ? [3, 7] : [],
     );
-  g.globalAlpha = one.faded ? 0.3 : 1;
+  g.globalAlpha = one.faded || one.glass ? 0.3 : 1;
   if (one.dips) drawRods({...one, rods: rods.flatMap(raised)}, 0);
   else drawRods(one);
+  g.globalAlpha = one.faded ? 0.3 : 1;
   if (one.framed) for (const frame of one.all) triad(g, cam, frame, 0.08 * scene.size, 1.8, 1);
   g.globalAlpha = 1;
   if (tail.length > 1) {

@@ -1,12 +1,11 @@
 // Handles to drag things in a scene. They are buttons over the canvas, so that touching one does
 // not scroll the page, the keyboard reaches it, and it has a name.
 
-import {cross, dot, frames, origin, plus, turned} from "./kinematics.js";
+import {cross, dot, plus} from "./kinematics.js";
 import {handleChooser, large} from "./chooser.js";
 import {element, control} from "./elements.js";
 
-/** @import {PageLink} from "./page.js" */
-/** @import {Color, Pixel, Point} from "./canvas.js" */
+/** @import {Box, Color, Pixel, Point} from "./canvas.js" */
 /** @import {Camera} from "./camera.js" */
 
 /**
@@ -77,8 +76,14 @@ export function handleLayer(canvas, camera, hold, changed) {
       handles = next.map(handle => ({...handle, node: button(handle, hand), shift: [0, 0]}));
       layer.replaceChildren(...handles.map(handle => handle.node));
     },
-    /** Moves the handles to their places; call it after every redraw. */
-    place() {
+    /** Whether handle k is shown. @param {number} k */
+    shows: k => !handles[k].node.hidden,
+    /**
+     * Moves the handles to their places; call it after every redraw.
+     * @param {Camera} [cam]
+     * @returns {Box[]}  the boxes that they cover
+     */
+    place(cam = camera()) {
       /** @type {Pixel[]} */
       const taken = [];
       chooser.update(canvas.clientWidth);
@@ -89,7 +94,9 @@ export function handleLayer(canvas, camera, hold, changed) {
         .filter(({node}) => !node.hidden)
         .sort((a, b) => Number(b.id === held) - Number(a.id === held));
       for (const handle of first)
-        taken.push(placed(handle, camera(), handle.id === held ? null : taken, canvas));
+        taken.push(placed(handle, cam, handle.id === held ? null : taken, canvas));
+      const size = large() ? 44 : 26;
+      return taken.map(([x, y]) => [x - size / 2, y - size / 2, size, size]);
     },
   };
 }
@@ -220,7 +227,7 @@ export function alongCurve(camera, place, value, step) {
       const bend = [0, 1].map(k => (after[k] - 2 * here[k] + before[k]) / (step * step));
       const off = [0, 1].map(k => wanted[k] - here[k]),
         length = along[0] ** 2 + along[1] ** 2;
-      if (length < (MOVES * camera.scale) ** 2) break;
+      if (length < MOVES ** 2) break;
       const rise = length - off[0] * bend[0] - off[1] * bend[1];
       const way = (off[0] * along[0] + off[1] * along[1]) / (rise > 0.1 * length ? rise : length);
       now += Math.max(-20 * step, Math.min(20 * step, way));
@@ -229,8 +236,8 @@ export function alongCurve(camera, place, value, step) {
     return now;
   };
 }
-// m on the screen per unit of the value: below this, the curve points at the camera
-const MOVES = 0.02;
+// px on the screen per unit of the value: below this, the curve points at the camera
+const MOVES = 5;
 
 /**
  * A drag that moves a point freely in the plane of the screen.
@@ -252,37 +259,4 @@ export function squareTo(axis) {
     length = Math.sqrt(dot(a, a));
   const first = a.map(x => x / length);
   return [first, cross(axis, first)];
-}
-
-/**
- * The place of the handle of joint i: on the part that it moves or, if that is short, on a knob
- * next to it.
- * @param {PageLink[]} chain
- * @param {number[]} q
- * @param {number} i
- * @param {Camera} camera
- * @returns {Point}
- */
-export function gripOf(chain, q, i, camera) {
-  /** @type {[number[][], number[][]]} */
-  const [joints, moved] = [[], []],
-    all = frames(chain, q, joints, moved),
-    here = origin(moved[i]),
-    reach = reachOf(camera);
-  if (chain[i].prismatic) return plus(here, turned(joints[i], chain[i].axis), 0.5 * reach);
-  const bends = all
-    .slice(i + 1)
-    .flatMap((frame, k) => (k ? [joints[i + k], frame] : [frame]))
-    .map(origin);
-  let from = here,
-    share = 0.6;
-  for (const bend of bends) {
-    const way = plus(bend, here, -1),
-      sunk = dot(way, turned(joints[i], chain[i].axis));
-    if (Math.sqrt(dot(way, way) - sunk * sunk) > reach)
-      return plus(from, plus(bend, from, -1), share);
-    // nearer to the start of the next link, since the handle of its own joint is at 0.6
-    if (dot(way, way) > 1e-12) [from, share] = [bend, 0.3];
-  }
-  return plus(here, turned(moved[i], squareTo(chain[i].axis)[0]), reach * [0.6, 0.9, 1.2][i % 3]);
 }

@@ -1,21 +1,26 @@
 // The joint explorer: the reader drags joints. All text and the arm data come from Python (page.py:
 // JointPage).
 
-import {distance_from_singularity, fk, origin, quaternion} from "./kinematics.js";
+import {distance_from_singularity} from "./dexterity.js";
+import {fk, origin, plus, quaternion, turned} from "./kinematics.js";
 import {singularities} from "./geometries.js";
 import {fill} from "./blanks.js";
+import {point} from "./mark.js";
 import {number} from "./canvas.js";
 import {copyButton} from "./copy.js";
 import {element, waiting} from "./elements.js";
-import {alongCurve, gripOf} from "./handles.js";
+import {ellipsoidMenu} from "./ellipsoid_menu.js";
+import {alongCurve} from "./handles.js";
+import {drawRings, ringAt, ringsOf} from "./joint_ring.js";
 import {slider, stageOf, tick} from "./stage.js";
 import {table} from "./table.js";
-import {ellipsoidOf, degrees, inUnits, rollPitchYaw} from "./turns.js";
+import {degrees, inUnits, rollPitchYaw} from "./turns.js";
 
-/** @import {JointPage} from "./page.js" */
+/** @import {ArmData, JointPage} from "./page.js" */
 /** @import {Color, Point} from "./canvas.js" */
 /** @import {Camera} from "./camera.js" */
 /** @import {Handle} from "./handles.js" */
+/** @import {Ring} from "./joint_ring.js" */
 /** @import {Stage} from "./stage.js" */
 
 /** @typedef {JointPage} JointExplorer */
@@ -38,6 +43,7 @@ export const explore = (id, data) =>
 function jointExplorer(stage, data) {
   const {arm, words, units} = data,
     state = {q: [...data.q]},
+    rings = ringsOf(arm.chain, arm.reach),
     sizes = units.map(unit => unit.size);
   const sliders = data.controls.map((spec, j) =>
     slider(spec, value => {
@@ -50,30 +56,37 @@ function jointExplorer(stage, data) {
     [],
     data.rows.map(row => row.heads.length),
   );
-  const more = tick(words.ellipsoid, stage.changed),
+  const more = ellipsoidMenu(data, stage.changed),
     axes = tick(words.axes, stage.changed, true),
     copy = copyButton(words, () => fill(data.code, {q: inUnits(units, state.q)}));
   stage.side.append(
     ...sliders.map(s => s.row),
-    element("div", {class: "rk-row"}, ...(data.singular ? [more.row] : []), axes.row, copy),
+    ...(data.singular ? [more.row] : []),
+    element("div", {class: "rk-row"}, axes.row, copy),
     stage.says,
   );
   stage.below.append(numbers.node);
-  stage.handles.set(arm.chain.map((_, j) => jointHandle(data, state, j)));
+  if (data.wrist) stage.space.classList.add("rk-close");
+  stage.handles.set(arm.chain.map((_, j) => jointHandle(data, rings, state, j)));
 
   stage.run(() => {
-    const {q} = state;
+    const {q} = state,
+      {ellipsoid, speeds} = more.at(q);
     sliders.forEach((s, j) => s.set(q[j] / sizes[j]));
     numbers.set(cells(data, q));
-    if (data.singular) stage.say(singular(data, q));
+    if (data.wrist) stage.scene.things = [point(words.wrist, wristCentre(arm, q, data.wrist))];
+    if (data.singular) stage.say(singular(data, q) + speeds);
     return [
       {
         name: arm.name,
         chain: arm.chain,
         q,
         framed: true,
+        glass: data.wrist !== null,
+        over: (g, camera) => drawRings(g, camera, arm.chain, rings, q, stage.handles.shows),
+        handles: stage.handles.place,
         axes: axes.on(),
-        ellipsoid: more.on() && ellipsoidOf(arm, q),
+        ellipsoid,
       },
     ];
   });
@@ -85,11 +98,12 @@ const limited = ([low, high], value) => Math.min(Math.max(value, low), high);
 /**
  * The handle of joint j, which is a ring.
  * @param {JointExplorer} data
+ * @param {Ring[]} rings
  * @param {State} state
  * @param {number} j
  * @returns {Handle}
  */
-function jointHandle({arm, words, units, controls, q: home}, state, j) {
+function jointHandle({arm, words, units, controls, q: home}, rings, state, j) {
   const {size, name} = units[j],
     step = controls[j].step * size,
     small = arm.chain[j].prismatic ? 1e-3 : 0.01,
@@ -101,12 +115,13 @@ function jointHandle({arm, words, units, controls, q: home}, state, j) {
   };
   /** @type {(camera: Camera, value: number) => Point} */
   const place = (camera, value) =>
-    gripOf(
+    ringAt(
       arm.chain,
+      rings,
       state.q.map((x, k) => (k === j ? value : x)),
       j,
       camera,
-    );
+    ).grip;
   return {
     id: `q${j + 1}`,
     group: fill(words.rings, j < half ? {first: 1, last: half} : {first: half + 1, last: count}),
@@ -125,6 +140,17 @@ function jointHandle({arm, words, units, controls, q: home}, state, j) {
       state.q[j] = home[j];
     },
   };
+}
+
+/**
+ * The wrist centre, from its place in flange coordinates.
+ * @param {ArmData} arm
+ * @param {number[]} q
+ * @param {Point} wrist
+ */
+function wristCentre({chain}, q, wrist) {
+  const flange = fk(chain, q);
+  return plus(origin(flange), turned(flange, wrist));
 }
 
 /**

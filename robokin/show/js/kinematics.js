@@ -1,6 +1,5 @@
 // Chains: rigid transforms as 12 numbers (the rows of [R | p]), rotations as quaternions [w, x, y,
-// z], the frames of a posture, and the Jacobian. The reference is in quaternion.py, transform.py,
-// arms/arm.py and arms/dexterity.py.
+// z], and the frames of a posture. The reference is in quaternion.py, transform.py and arms/arm.py.
 //
 // A pose is {rotation, place} (target "Transform"), {place, angle} ("ScaraPose") or {place}
 // ("point"). An arm is the result of `arm_data` in twin.py; the scripts contain no arm data.
@@ -255,92 +254,4 @@ export function pose(arm, q) {
     place = origin(m);
   if (arm.target === "Transform") return {rotation: quaternion(m), place};
   return arm.target === "ScaraPose" ? {place, angle: Math.atan2(m[4], m[0])} : {place};
-}
-
-/**
- * The geometric Jacobian at the flange: three rows of velocity, three of angular velocity.
- * @param {PageLink[]} chain
- * @param {number[]} q
- * @returns {number[][]}  6 rows of n
- */
-export function jacobian(chain, q) {
-  /** @type {number[][]} */
-  const joints = [],
-    ends = frames(chain, q, joints),
-    tip = origin(ends[ends.length - 1]);
-  const columns = chain.map((link, i) => {
-    const axis = turned(joints[i], link.axis);
-    if (link.prismatic) return [...axis, 0, 0, 0];
-    return [...cross(axis, plus(tip, origin(joints[i]), -1)), ...axis];
-  });
-  return [0, 1, 2, 3, 4, 5].map(row => columns.map(column => column[row]));
-}
-
-/**
- * @param {number[]} a
- * @param {number[]} b
- */
-const inner = (a, b) => a.reduce((sum, x, k) => sum + x * b[k], 0);
-
-/**
- * Rotates vectors in pairs until all are perpendicular (one-sided Jacobi, Hestenes 1958), and
- * returns them with the rows of the rotation. Their lengths are the singular values, accurate to
- * the last digits even near zero, where the root of an eigenvalue is not.
- * @param {number[][]} vectors
- */
-function squared(vectors) {
-  const turns = vectors.map((_, i) => vectors.map((_, j) => Number(i === j)));
-  const a = vectors.map(vector => [...vector]);
-  for (let sweep = 0, again = true; again && sweep < 30; sweep++) {
-    again = false;
-    for (let i = 0; i < a.length; i++)
-      for (let j = i + 1; j < a.length; j++) {
-        const p = inner(a[i], a[i]),
-          q = inner(a[j], a[j]),
-          r = inner(a[i], a[j]);
-        if (Math.abs(r) <= 1e-15 * Math.sqrt(p * q)) continue;
-        again = true;
-        const zeta = (q - p) / (2 * r);
-        const t = (zeta < 0 ? -1 : 1) / (Math.abs(zeta) + Math.sqrt(1 + zeta * zeta));
-        const c = 1 / Math.sqrt(1 + t * t),
-          s = c * t;
-        for (const rows of [a, turns])
-          [rows[i], rows[j]] = [
-            rows[i].map((x, k) => c * x - s * rows[j][k]),
-            rows[j].map((y, k) => s * rows[i][k] + c * y),
-          ];
-      }
-  }
-  return {lengths: a.map(vector => Math.sqrt(inner(vector, vector))), turns};
-}
-
-/**
- * How slowly the tool moves in its worst direction: the smallest singular value of the Jacobian,
- * with lengths divided by the arm's reach; 0 is a singularity; NaN in, NaN out.
- * @param {ArmData} arm
- * @param {number[]} q
- * @returns {number}
- */
-export function distance_from_singularity(arm, q) {
-  if (q.some(Number.isNaN)) return NaN;
-  const whole = jacobian(arm.chain, q),
-    {reach, prismatic} = arm;
-  const rows = arm.movable.map(r =>
-    whole[r].map((x, j) => (r < 3 ? x / reach : x) * (prismatic[j] ? reach : 1)),
-  );
-  const columns = q.map((_, j) => rows.map(row => row[j]));
-  return Math.min(...squared(rows.length < q.length ? rows : columns).lengths);
-}
-
-/**
- * The semi-axes of the ellipsoid of tool velocities for joint speeds of norm 1.
- * @param {PageLink[]} chain
- * @param {number[]} q
- * @returns {number[][]}  three vectors in m/s, the longest first
- */
-export function ellipsoid(chain, q) {
-  const {lengths, turns} = squared(jacobian(chain, q).slice(0, 3));
-  return [0, 1, 2]
-    .sort((i, j) => lengths[j] - lengths[i])
-    .map(i => turns[i].map(part => part * lengths[i]));
 }

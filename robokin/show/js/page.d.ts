@@ -300,6 +300,7 @@ export interface JointPage {
   q: number[];
   rows: FactRow[];
   singular: boolean;
+  wrist: number[] | null;
 }
 
 export interface LeversPage {

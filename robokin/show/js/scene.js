@@ -31,10 +31,12 @@ import {compass} from "./triad.js";
  * @property {{q: number[], past: boolean}[]} [ghosts]  other postures, faint; broken lines where
  *   `past` a limit
  * @property {boolean} [framed]  show the frame of every link
+ * @property {boolean} [glass]  draw it translucent
  * @property {number[]} [past]  the joints that are past a limit
  * @property {string} [row]  the row of `ik` to which the posture belongs
  * @property {Draw} [under]  draws anything else below the arm
  * @property {Draw} [over]  the same above it
+ * @property {(cam: Camera) => Box[]} [handles]  the boxes of its handles, which no label covers
  */
 /** @typedef {ReturnType<typeof surroundings>} Space  the fixed surroundings of a scene */
 /**
@@ -253,6 +255,7 @@ function drawSpace(pen, arms, [x, y, w, h], named) {
   /** @type {Box[]} */
   const written = [];
   for (const one of all) drawFlange(one, written);
+  written.push(...all.flatMap(one => one.handles?.(one.cam) ?? []));
   written.push(...compass(g, cam, [x + w - 34, y + h - 34]));
   if (first.row && arms.length === 1) written.push(writeRow(g, first.row, [x, y + h], written));
   for (const {

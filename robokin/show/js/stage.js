@@ -17,7 +17,7 @@ import {range} from "./sliders.js";
 /**
  * An arm of an explorer; the first one shows the axes of its joints and the semi-axes of the
  * ellipsoid of tool velocities, if it has them.
- * @typedef {Shown & {axes?: boolean, ellipsoid?: false | number[][]}} Explored
+ * @typedef {Shown & {axes?: boolean, ellipsoid?: number[][]}} Explored
  */
 /** @typedef {ReturnType<typeof stageOf>} Stage */
 /**

@@ -1,19 +1,21 @@
 // The target explorer: a target to drag, and all branches that reach it. All text and the arm data
 // come from Python (page.py: TargetPage).
 
-import {distance_from_singularity, matrix, wrapped} from "./kinematics.js";
+import {distance_from_singularity} from "./dexterity.js";
+import {matrix, wrapped} from "./kinematics.js";
 import {ik, singularities} from "./geometries.js";
 import {explain, nearest, representative, within} from "./branches.js";
 import {fill} from "./blanks.js";
 import {number} from "./canvas.js";
 import {copyButton} from "./copy.js";
 import {element, waiting} from "./elements.js";
+import {ellipsoidMenu} from "./ellipsoid_menu.js";
 import {point} from "./mark.js";
 import {menu, slider, stageOf, tick} from "./stage.js";
 import {table} from "./table.js";
 import {frame} from "./target.js";
 import {targetHandles} from "./target_handles.js";
-import {degrees, ellipsoidOf, inCode, radians, rotationOf} from "./turns.js";
+import {degrees, inCode, radians, rotationOf} from "./turns.js";
 
 /** @import {ArmData, BranchTask, TargetPage, With} from "./page.js" */
 /** @import {Point} from "./canvas.js" */
@@ -60,21 +62,18 @@ function targetExplorer(stage, data) {
   };
   const sliders = slidersOf(stage, data, state),
     choice = menu(words.branch, [words.nearest, ...data.branches], k => want(k - 1));
-  const more = tick(words.ellipsoid, stage.changed),
+  const more = ellipsoidMenu(data, stage.changed),
     axes = tick(words.axes, stage.changed),
     copy = copyButton(words, () => fill(data.code, {...inCode(state, unit), row: state.chosen}));
   stage.side.append(
     ...sliders.map(s => s.row),
     choice.row,
-    element("div", {class: "rk-row"}, more.row, axes.row, copy),
+    more.row,
+    element("div", {class: "rk-row"}, axes.row, copy),
     stage.says,
   );
-  const rows = table(
-    data.branches,
-    data.heads,
-    data.heads.slice(1).map(() => 1),
-    want,
-  );
+  const one = data.heads.slice(1).map(() => 1),
+    rows = table(data.branches, data.heads, one, want);
   stage.below.append(rows.node);
   stage.handles.set(targetHandles(stage, state, home, data));
 
@@ -88,7 +87,9 @@ function targetExplorer(stage, data) {
     );
     choice.set(state.wanted + 1);
     rows.set(cells(data, found), exists[chosen] ? chosen : -1, exists);
-    stage.say(told(data.task, found.rows, exists) + summary(arm, words, state, usable, chosen));
+    const {ellipsoid, speeds} = more.at(state.q),
+      why = told(data.task, found.rows, exists);
+    stage.say(why + summary(arm, words, state, usable, chosen) + speeds);
     markTarget(stage, state, words.target);
     return [
       {
@@ -96,11 +97,9 @@ function targetExplorer(stage, data) {
         chain: arm.chain,
         q: state.q,
         faded: !exists[chosen],
-        ghosts: found.rows.flatMap((q, k) =>
-          exists[k] && k !== chosen ? [{q, past: !usable[k]}] : [],
-        ),
+        ghosts: ghostsOf(found),
         axes: axes.on(),
-        ellipsoid: more.on() && ellipsoidOf(arm, state.q),
+        ellipsoid,
       },
     ];
   });
@@ -124,6 +123,13 @@ const slidersOf = (stage, {arm, controls, unit}, state) =>
   );
 
 /** @typedef {ReturnType<typeof foundAt>} Found */
+
+/**
+ * The other branches that exist.
+ * @param {Found} found
+ */
+const ghostsOf = ({rows, exists, usable, chosen}) =>
+  rows.flatMap((q, k) => (exists[k] && k !== chosen ? [{q, past: !usable[k]}] : []));
 
 /**
  * All branches at the target: the row, whether it exists, which of its joints are inside their

@@ -1,8 +1,8 @@
 // Rotations as roll, pitch and yaw, and values as Python code.
 
-import {ellipsoid, product} from "./kinematics.js";
+import {product} from "./kinematics.js";
 
-/** @import {ArmData, PageUnit, Unit} from "./page.js" */
+/** @import {PageUnit, Unit} from "./page.js" */
 
 /**
  * @param {number} x  degrees
@@ -95,14 +95,3 @@ export const inCode = (state, unit) => ({
     : {}),
   ...(state.angle === undefined ? {} : {angle: plain(degrees(state.angle), 3)}),
 });
-
-/**
- * The semi-axes of the ellipsoid of tool velocities, scaled to be visible next to the arm.
- * @param {ArmData} arm
- * @param {number[]} q
- */
-export function ellipsoidOf(arm, q) {
-  const axes = ellipsoid(arm.chain, q),
-    longest = Math.sqrt(axes[0].reduce((sum, x) => sum + x * x, 0)) || 1;
-  return axes.map(axis => axis.map(x => (x * 0.25 * arm.reach) / longest));
-}

@@ -1,0 +1,129 @@
+// The rings of the joint explorer: where they stand, and how they look.
+
+import {clear, jointColor, stroke} from "./canvas.js";
+import {reachOf, squareTo} from "./handles.js";
+import {IDENTITY, cross, dot, frames, origin, plus, turned} from "./kinematics.js";
+
+/** @import {PageLink} from "./page.js" */
+/** @import {Camera} from "./camera.js" */
+/** @import {Context, Point} from "./canvas.js" */
+
+/**
+ * The place of a ring on its joint: it is moved by `slide` (-1, 0 or 1) times a reach along the
+ * axis, less the distance `gap` (m) that is already there; `spoke` (unit vector in the frame that
+ * the joint moves) points from the axis to the handle.
+ * @typedef {{slide: number, gap: number, spoke: Point}} Ring
+ */
+
+const RADIUS = 0.47,
+  SLIDE = 0.68; // of the reach of a handle: see reachOf
+const CROWDED = 0.2; // reaches of the arm: joints that are nearer to each other share a place
+
+/**
+ * The rings of an arm. Joints that are close together, such as those of a wrist, get theirs at
+ * different places of their axes: the first joint before, the last one behind the others. This
+ * depends on the links only, so that a ring does not jump while a joint moves.
+ * @param {PageLink[]} chain
+ * @param {number} reach
+ * @returns {Ring[]}
+ */
+export function ringsOf(chain, reach) {
+  /** @type {[number[][], number[][]]} */
+  const [joints, moved] = [[], []],
+    ends = frames(
+      chain,
+      chain.map(() => 0),
+      joints,
+      moved,
+    );
+  const places = [IDENTITY, ...joints, ends[chain.length]].map(origin),
+    ways = places.slice(1).map((place, i) => plus(place, places[i], -1));
+  /** @type {(i: number) => boolean} */
+  const near = i => i > 0 && i < chain.length && dot(ways[i], ways[i]) < (CROWDED * reach) ** 2;
+  return chain.map((link, i) => {
+    const axis = turned(joints[i], link.axis),
+      next = turnedBack(moved[i], ways[i + 1]);
+    const first = !near(i) && near(i + 1),
+      last = near(i) && !near(i + 1);
+    const slide = first ? -along(axis, ways[i]) : last ? along(axis, ways[i + 1]) : 0;
+    return {
+      slide,
+      gap: last ? Math.max(0, slide * dot(axis, ways[i])) : 0,
+      spoke: besides(link.axis, next, turnedBack(moved[i], ways[i])),
+    };
+  });
+}
+
+/**
+ * The sign of the direction of `way` along a unit vector; 0 if it leads elsewhere, 1 if it is zero.
+ * @param {Point} axis
+ * @param {Point} way
+ */
+function along(axis, way) {
+  const part = dot(axis, way),
+    long = Math.sqrt(dot(way, way));
+  if (long < 1e-9) return 1;
+  return Math.abs(part) > 0.9 * long ? Math.sign(part) : 0;
+}
+
+/** v in the coordinates of m. @param {number[]} m @param {Point} v @returns {Point} */
+const turnedBack = (m, v) => [0, 1, 2].map(k => m[k] * v[0] + m[4 + k] * v[1] + m[8 + k] * v[2]);
+
+/**
+ * A unit vector perpendicular to an axis and, if possible, to the link that the joint moves, on the
+ * side away from the link before it.
+ * @param {Point} axis
+ * @param {Point} link
+ * @param {Point} before
+ */
+function besides(axis, link, before) {
+  const side = cross(axis, link),
+    long = (dot(side, before) < -1e-9 ? -1 : 1) * Math.sqrt(dot(side, side));
+  return Math.abs(long) > 1e-9 ? side.map(x => x / long) : squareTo(axis)[0];
+}
+
+/**
+ * The place of the ring of joint i: its centre, and the handle on it; a prismatic joint has its
+ * handle on its axis.
+ * @param {PageLink[]} chain
+ * @param {Ring[]} rings
+ * @param {number[]} q
+ * @param {number} i
+ * @param {Camera} camera
+ */
+export function ringAt(chain, rings, q, i, camera) {
+  /** @type {[number[][], number[][]]} */
+  const [joints, moved] = [[], []];
+  frames(chain, q, joints, moved);
+  const {slide, gap, spoke} = rings[i],
+    reach = reachOf(camera);
+  const axis = turned(joints[i], chain[i].axis),
+    here = origin(moved[i]);
+  if (chain[i].prismatic) return {centre: here, grip: plus(here, axis, 0.5 * reach), axis};
+  const centre = plus(here, axis, slide * Math.max(0, SLIDE * reach - gap));
+  return {centre, grip: plus(centre, turned(moved[i], spoke), RADIUS * reach), axis};
+}
+
+/**
+ * Draws the rings whose handles are shown, each with the line from its centre to its handle.
+ * @param {Context} g
+ * @param {Camera} camera
+ * @param {PageLink[]} chain
+ * @param {Ring[]} rings
+ * @param {number[]} q
+ * @param {(joint: number) => boolean} shows  whether the handle of a joint is shown
+ */
+export function drawRings(g, camera, chain, rings, q, shows) {
+  rings.forEach((_, i) => {
+    if (!shows(i)) return;
+    const {centre, grip, axis} = ringAt(chain, rings, q, i, camera),
+      color = clear(jointColor(i), 0.7);
+    const spoke = plus(grip, centre, -1),
+      across = cross(axis, spoke);
+    const circle = Array.from({length: 49}, (_, k) => (k * Math.PI) / 24).map(t =>
+      camera.to(plus(plus(centre, spoke, Math.cos(t)), across, Math.sin(t))),
+    );
+    if (!chain[i].prismatic) stroke(g, circle, color, 1.6);
+    stroke(g, [camera.to(centre), camera.to(grip)], color, 1.2);
+  });
+}
