@@ -3,6 +3,7 @@ keyboard, typed, remembered, and printed in the notebook.
 """
 
 import re
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -284,6 +285,33 @@ def test_answer_and_picture_are_printed(opened, scripts):
     page.emulate_media(media="print")
     expect(picture).to_be_visible()
     assert page.get_by_text(REASON).is_visible() and page.get_by_text("half as much").is_visible()
+
+
+def test_a_guessed_number_is_printed(opened):
+    page = opened(Asked("made.p2", replace(TYPED, view=moving), None))
+    field = page.get_by_label("your guess, mm")
+    field.fill("100")
+    guess(page).click()
+    page.locator(".rk-scene").wait_for()  # a player hides its own fields on paper
+    page.emulate_media(media="print")
+    assert field.is_visible() and field.input_value() == "100"
+
+
+def test_focus_stays_on_the_second_control_when_the_question_starts(browser, tmp_path):
+    """Tab reaches the control of a question that is far away; only then does its script start."""
+    path = tmp_path / "far.html"
+    Asked("made.p1", words(), None).save(path)
+    far = re.sub("(<body[^>]*>)", r'\1<div style="height:5000px"></div>', path.read_text())
+    path.write_text(far)
+    page = browser.new_page()
+    page.goto(path.as_uri())
+    assert page.locator(".rk-ask").count() == 0
+    page.keyboard.press("Tab")
+    page.locator(".rk-ask").wait_for()
+    assert page.evaluate("document.activeElement.textContent") == UNGUESSED
+    page.keyboard.press("Enter")
+    expect(page.get_by_text(REASON)).to_be_visible()
+    page.close()
 
 
 def test_answer_opens_without_scripts(opened):

@@ -40,6 +40,7 @@ class Prediction {
     this.asking = element("div", {class: "rk-asking"}, ...parts);
     this.inputs = inputsOf(data);
     this.rows = rowsOf(data, this.inputs);
+    const focused = root.contains(document.activeElement);
     root.replaceChildren(
       element(
         "div",
@@ -50,6 +51,8 @@ class Prediction {
         ...(this.unguessed ? [this.unguessed] : []),
       ),
     );
+    // Tab reaches the second control before the script starts, and the move takes the focus away.
+    if (focused) this.unguessed?.querySelector("summary")?.focus();
     this.listen();
     if (data.choice === null) this.recall();
     else this.open(data.choice);
