@@ -87,7 +87,7 @@ def test_solutions_satisfy_the_law(name):
 
 
 @pytest.mark.parametrize("name", FUNCTIONS)
-def test_each_mistake_runs_is_wrong_and_gets_its_own_name(name):
+def test_each_mistake_gives_wrong_results_and_gets_its_own_name(name):
     """If an edit uses a name that does not exist, the program raises an error in every case."""
     exercise = EXERCISES[name]
     for variant in exercise.own:

@@ -303,7 +303,7 @@ def test_test_must_look_at_every_angle():
 
 
 @pytest.mark.parametrize("share", [0.95, 0.99])
-def test_margin_inside_the_border_of_a_triangle_is_refused(share):
+def test_answer_that_gives_up_just_inside_the_border_is_refused(share):
     def far(K, alpha, lengths):
         a, b, c = lengths
         KB = np.sqrt(b**2 + c**2 - 2 * b * c * np.cos(alpha))

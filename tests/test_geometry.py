@@ -70,7 +70,7 @@ def test_ik_and_fk_agree_for_links_of_any_lengths(seed):
         assert np.isnan(rows).any(-1).tolist() == np.isnan(rows).all(-1).tolist()
 
 
-def test_links_and_inverse_cannot_be_separated():
+def test_links_cannot_change_without_the_inverse():
     links = list(IRB140.links)
     links[2] = dataclasses.replace(links[2], before=Transform(translation=(0, 0, 498 * mm)))
     with pytest.raises(TypeError, match="links"):

@@ -171,7 +171,7 @@ def test_names_in_code_are_ascii(code):
             ), token
 
 
-def test_no_invisible_or_broken_characters(cells):
+def test_cells_contain_no_invisible_or_broken_characters(cells):
     for cell in cells:
         odd = {
             char

@@ -82,7 +82,7 @@ def test_forward_kinematics_matches_the_oracle(case):
 
 
 @pytest.mark.parametrize("case", UNREACHED)
-def test_target_out_of_range_has_no_postures_and_a_reason(case):
+def test_target_out_of_range_has_no_postures_and_gets_a_reason(case):
     arm = three_lever(case["L"])
     assert np.isnan(arm.family(case["K"], [1.0, 2.0, np.pi])).all()
     assert (

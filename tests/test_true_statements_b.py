@@ -155,7 +155,7 @@ def test_three_of_eight_rows_are_usable_at_six_seconds():
 # --- Lab 08 ---------------------------------------------------------------------------------------
 
 
-def test_first_come_wins_at_the_stated_belt_speed():
+def test_first_come_rule_wins_at_the_stated_belt_speed():
     v, missed, total = said(
         "08", "belt-row", r"at (\d+) mm/s it misses (\d+) of the (\d+), and \"first come.*all\."
     )

@@ -152,7 +152,7 @@ def test_another_round_trip_beats_nearest_first_as_stated():
     assert max(round_trip(legs, order, 7.5) for order in orders) == 0
 
 
-def test_bag_emptied_at_the_end_is_judged_by_round_trips():
+def test_tours_with_a_bag_emptied_at_the_end_count_as_round_trips():
     module = book.lab("visit_and_collect").module("predictions")
     shared = book.lab("visit_and_collect").module("shared")
     beaten = 0
@@ -263,7 +263,7 @@ def arms_needed(v, spread, seed):
     return count
 
 
-def test_belt_table_shows_one_stream_and_others_need_one_more_arm():
+def test_belt_table_shows_one_stream_and_other_streams_need_one_more_arm():
     words = flat("08", "belt-look")
     assert "at all six speeds. At spread 0.5 it is one arm too few at three of them, at" in words
     assert "at spread 1 at five. These are the streams of one order of the gaps, `seed=8`." in words
