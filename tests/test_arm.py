@@ -315,7 +315,7 @@ def test_whole_turns_do_not_change_fk():
 
 # The limits and speeds of the robots as printed in their sources, in degrees and millimetres.
 PUBLISHED = {
-    "IRB-140": (  # 001, listing 7; speeds: our choice, below those of public models
+    "IRB-140": (  # 001, listing 7; the speeds are our choice, below those of public models
         IRB140,
         [(-180, 180), (-90, 110), (-230, 50), (-200, 200), (-115, 115), (-400, 400)],
         [200, 200, 245, 348, 360, 450],

@@ -214,7 +214,7 @@ def test_follow_passes_straight_through_the_wrist_singularity(machine, middle):
 @six
 @pytest.mark.parametrize("sine", [1e-14, 3e-13, 1e-11, 1e-10])
 def test_rounding_noise_at_the_wrist_singularity_turns_no_joint(machine, sine):
-    """This near to the singularity, joint 4 is rounding noise in every row; a motion does not
+    """This close to the singularity, joint 4 is rounding noise in every row; a motion does not
     follow the noise.
     """
     arm = machine.arm
@@ -452,7 +452,7 @@ def test_explain_reports_the_distance_out_of_reach():
 def test_explain_suspects_millimetres():
     text = explain(IRB140, Transform(TURNED, (515, 0, 702)), 0)
     assert "does not exist" in text and "millimetres" in text and "mm" in text
-    # makes no sense in mm either
+    # this pose makes no sense in mm either
     assert "millimetres" not in explain(IRB140, Transform(TURNED, (515e3, 0, 702e3)), 0)
     assert "millimetres" not in explain(IRB140, Transform(TURNED, (2, 0, 0.7)), 0)
 

@@ -52,7 +52,7 @@ def test_exercises_have_all_their_sections(name):
 @pytest.mark.parametrize("name", [*FUNCTIONS, *CATCHES])
 def test_mistakes_have_unique_names_and_sentences(name):
     mistakes = EXERCISES[name].text.wrong()
-    assert len({each.name for each in mistakes}) >= 6, "wanted six mistakes or more"
+    assert len({each.name for each in mistakes}) >= 6, "wanted at least six mistakes"
     for what in ("name", "says"):
         found = Counter(getattr(each, what) for each in mistakes)
         assert not (twice := [text for text, n in found.items() if n > 1]), f"{what}: {twice}"

@@ -94,7 +94,7 @@ def _open_upward(c, H):
 
 
 def _by_products(c, H):
-    """Counts the crossings of the sides, but none at an end point of a side."""
+    """Counts the crossings of the sides, except those at an end point of a side."""
     count = 0
     for P, Q in _sides(c):
         if (P[1] - H[1]) * (Q[1] - H[1]) < 0:

@@ -289,7 +289,7 @@ def test_partial_loss_of_worth_is_reported():
 
 
 def test_cheapest_first_collects_as_many_points_as_the_best_choice():
-    """The exercise's statement about "collect" is tested against all choices."""
+    """Test the exercise's statement about "collect" by trying all possible choices."""
     numbers = variant("visit_and_collect", 3)
     rng = np.random.default_rng(3)
     for _ in range(100):

@@ -1,4 +1,4 @@
-"""`python -m robokin.course export` makes a single page of a lab that works without a network."""
+"""`python -m robokin.course export` turns a lab into a single page that works without a network."""
 
 import json
 import re

@@ -1,4 +1,6 @@
-"""Geometries: links and inverse from the same lengths, one tolerance, sentences for reasons."""
+"""Geometries: links and inverse come from the same lengths, one tolerance applies everywhere, and
+each reason has a sentence.
+"""
 
 import dataclasses
 
@@ -184,7 +186,7 @@ def test_ik_of_equal_links_is_accurate_near_the_shoulder(exponent):
     the distance.
     """
     d = 10.0**-exponent
-    # A point nearer to axis 1 than 1e-13 times the reach counts as on it, so joint 1 is free.
+    # A point nearer to axis 1 than 1e-13 times the reach counts as lying on it, so joint 1 is free.
     tolerance = 4e-15 if exponent < 12 else 4e-13
     angle = np.linspace(0, TURN, 13)
     circle = np.stack([np.cos(angle), np.sin(angle), 0 * angle], axis=-1) * d

@@ -154,8 +154,9 @@ def test_clearance_and_via_points_match_the_reference_cases(case):
 
 
 def test_via_points_lie_at_right_angles_and_on_the_side_of_the_base():
-    """Errata S3-m: the printed formulas give (1.556, 1.131) and (1.429, 0.876) here: neither is
-    perpendicular, and one is on the wrong side.
+    """Seen from the obstacle, a via point is at right angles to its end of the path. Errata S3-m:
+    the printed formulas give (1.556, 1.131) and (1.429, 0.876) here; neither is at right angles,
+    and one is on the wrong side.
     """
     H, K, K1 = np.array([1.5, 1]), np.array([1.2, 1.7]), np.array([1.9, 0.3])
     K2, K3 = via_points(K, K1, H, 1 / 7)

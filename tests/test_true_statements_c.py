@@ -369,7 +369,9 @@ def test_first_come_rule_meets_its_objects_where_stated():
         "belt-work",
     )
     far = principal_postures(500 * mm, 400 * mm, made["window"]) - made["q_bin"]
-    assert (np.diff(abs(far).max(axis=-1)) > 0).all(), "farther along is farther from the bin"
+    assert (np.diff(abs(far).max(axis=-1)) > 0).all(), (
+        "places farther along the belt are farther from the bin"
+    )
     first, soonest = (
         np.array([place for _, _, place in made["work"](made["uneven"], 0.15, come)[0]])
         for come in (True, False)

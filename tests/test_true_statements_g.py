@@ -404,7 +404,7 @@ def test_random_choice_turns_less_as_often_as_stated_but_never_from_the_same_pos
     assert (thrown > could - 1e-4).all()
     assert (thrown > could + 0.1).sum() > 95
     assert abs(thrown - least).min() > 0.01 and (thrown < least).sum() == fewer == 14
-    # a throw can turn less than the other arm in a single task, but not in the sum
+    # a throw can turn less than the other arm in a single task, but not in total
     assert (least - thrown).max() == pytest.approx(65.9, abs=0.05)
     assert thrown.sum() > 1.4 * least.sum()
 

@@ -298,8 +298,8 @@ def test_results_are_consistent(case):
 
 @pytest.mark.parametrize("k", [1e-5, 1, 1e5])
 def test_tolerance_scales_with_the_reach(k):
-    """Errata S0-l: a point past a border by less than 1e-12 of the reach counts as on it, at any
-    size.
+    """Errata S0-l: a point past a border by less than 1e-12 of the reach counts as lying on it, at
+    any size.
     """
     behind = np.sqrt(25 - 16)  # the height at which the inner border for l1 < l2 meets the axis
     for l1, l2, border, outward, condition in (

@@ -149,7 +149,7 @@ def test_reader_chooses_the_large_panel(page, motions, tmp_path):
     for large in range(3):
         menu.select_option(str(large))
         frames, words = anew(page)
-        heights = [h for _, _, _, h in frames][-3:]  # of the last picture, if there are two
+        heights = [h for _, _, _, h in frames][-3:]  # if there are two pictures, of the last
         assert len(heights) == 3 and np.argmax(heights) == large
         assert {"angle, °", "speed, °/s", "acceleration, °/s²"} <= set(words)
 
