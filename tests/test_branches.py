@@ -166,7 +166,7 @@ def test_nearest_does_not_wrap_prismatic_joints():
     assert np.allclose(nearest(MIXED, beyond, [0.0, 0.0]), [0.0, 7.5])
 
 
-def test_nearest_at_the_current_pose_returns_the_posture():
+def test_nearest_returns_the_current_posture_for_its_own_pose():
     rng = np.random.default_rng(23)
     q = rng.uniform(IRB140.limits[:, 0], IRB140.limits[:, 1], (200, 6))
     assert abs(nearest(IRB140, IRB140.ik(IRB140.fk(q)), q) - q).max() < 1e-9
@@ -214,7 +214,7 @@ def test_follow_passes_straight_through_the_wrist_singularity(machine, middle):
 @six
 @pytest.mark.parametrize("sine", [1e-14, 3e-13, 1e-11, 1e-10])
 def test_rounding_noise_at_the_wrist_singularity_turns_no_joint(machine, sine):
-    """This near to the singularity, joint 4 is rounding noise in every row; a motion does not
+    """This close to the singularity, joint 4 is rounding noise in every row; a motion does not
     follow the noise.
     """
     arm = machine.arm
@@ -259,7 +259,7 @@ def test_follow_leaves_home_without_a_jump():
     assert rotation_gap(IRB140.fk(back[-1]), IRB140.fk(HOME)) < 1e-12
 
 
-def test_free_joints_stay_still_in_the_wrist_singularity():
+def test_free_joints_stay_still_at_the_wrist_singularity():
     q = np.zeros((50, 6)) + [0, 0.2, -0.1, 0, 0, 0.7]
     q[:, 0] = np.linspace(0, 1, 50)
     path = follow(IRB140, IRB140.ik(IRB140.fk(q)), IRB140.branch(1, 1, 1))
@@ -268,7 +268,7 @@ def test_free_joints_stay_still_in_the_wrist_singularity():
     assert abs(np.diff(path[:, 3:], axis=0)).max() < 1e-12
 
 
-def test_joints_4_and_6_share_the_rotation_in_the_singularity():
+def test_joints_4_and_6_share_the_rotation_at_the_singularity():
     q = np.zeros((50, 6)) + [0.3, 0.2, -0.1, 0, 0, 0]
     q[:, 5] = np.linspace(0, 1, 50)
     path = follow(IRB140, IRB140.ik(IRB140.fk(q)), IRB140.branch(1, 1, 1))
@@ -452,7 +452,7 @@ def test_explain_reports_the_distance_out_of_reach():
 def test_explain_suspects_millimetres():
     text = explain(IRB140, Transform(TURNED, (515, 0, 702)), 0)
     assert "does not exist" in text and "millimetres" in text and "mm" in text
-    # makes no sense in mm either
+    # this pose makes no sense in mm either
     assert "millimetres" not in explain(IRB140, Transform(TURNED, (515e3, 0, 702e3)), 0)
     assert "millimetres" not in explain(IRB140, Transform(TURNED, (2, 0, 0.7)), 0)
 
@@ -621,7 +621,7 @@ def test_representative_keeps_a_joint_at_its_limit():
             assert np.allclose(representative(arm, limit), limit, rtol=0, atol=1e-12)
 
 
-def test_unwrapped_takes_the_nearest_turn_and_keeps_prismatic_joints():
+def test_unwrapped_takes_the_nearest_turn_and_leaves_prismatic_joints_alone():
     rng = np.random.default_rng(32)
     q, near = rng.uniform(-9, 9, (2, 100, 2))
     got = unwrapped(MIXED, q, near)

@@ -52,7 +52,7 @@ def test_exercises_have_all_their_sections(name):
 @pytest.mark.parametrize("name", [*FUNCTIONS, *CATCHES])
 def test_mistakes_have_unique_names_and_sentences(name):
     mistakes = EXERCISES[name].text.wrong()
-    assert len({each.name for each in mistakes}) >= 6, "wanted six mistakes or more"
+    assert len({each.name for each in mistakes}) >= 6, "wanted at least six mistakes"
     for what in ("name", "says"):
         found = Counter(getattr(each, what) for each in mistakes)
         assert not (twice := [text for text, n in found.items() if n > 1]), f"{what}: {twice}"
@@ -87,7 +87,7 @@ def test_solutions_satisfy_the_law(name):
 
 
 @pytest.mark.parametrize("name", FUNCTIONS)
-def test_each_mistake_runs_is_wrong_and_gets_its_own_name(name):
+def test_each_mistake_gives_wrong_results_and_gets_its_own_name(name):
     """If an edit uses a name that does not exist, the program raises an error in every case."""
     exercise = EXERCISES[name]
     for variant in exercise.own:

@@ -109,7 +109,7 @@ def test_arms_do_not_leave_before_they_are_free(line):
         assert (np.diff(one.meets) >= ways[:-1] + ways[1:] - 1e-9).all()
 
 
-def test_each_object_is_picked_once_or_missed_by_all(line):
+def test_each_object_is_picked_once_or_missed_by_all_arms(line):
     offsets, v, pitch, trips, first_come = line
     taken = np.concatenate([one.objects for one in trips])
     assert len(set(taken.tolist())) == len(taken) <= COUNT
@@ -191,7 +191,7 @@ def test_unlimited_window_allows_one_pick_per_cycle(spread, first_come):
 
 
 @pytest.mark.parametrize("seed", range(4))
-def test_one_place_with_uneven_gaps_matches_a_simple_loop(seed):
+def test_picking_at_one_place_with_uneven_gaps_matches_a_simple_loop(seed):
     """Objects that come while the arm is away are missed."""
     offsets, v, way = spaced(COUNT, GAP, 1.0, seed=seed), 0.2, 0.5
     (one,) = serve(offsets, v, [0.0], [way])

@@ -746,7 +746,9 @@ def test_outcomes_match_the_files(school, capsys):
 
 
 @pytest.mark.parametrize("after, dead", [(True, False), (False, True)])
-def test_copy_may_be_stopped_at_any_write(tmp_path, after, dead, monkeypatch):
+def test_copy_can_be_interrupted_at_any_write_and_finished_later(
+    tmp_path, after, dead, monkeypatch
+):
     notary = NotebookNotary(store_factory=MemorySignatureStore, secret=b"secret")
     monkeypatch.setattr(nbformat.sign, "NotebookNotary", lambda: notary)
     school = Class(tmp_path, "one.ipynb", "two.ipynb")
@@ -816,7 +818,7 @@ def test_link_created_during_a_copy_is_kept(school, tmp_path, monkeypatch):
     assert school.copy() == {"one.ipynb": "failed"} and place.readlink() == tmp_path
 
 
-def test_full_disk_is_reported_and_recovered_from(school, capsys):
+def test_full_disk_is_reported_and_the_next_copy_succeeds(school, capsys):
     for name in ("one.ipynb", "two.ipynb", "new.ipynb"):
         school.newer(name, "second")
     with mock.patch.object(copies, "_put", side_effect=OSError(28, "No space left on device")):
@@ -896,7 +898,7 @@ def test_copy_without_a_manifest_loses_nothing(school, text):
     assert (school.folder / "one.ipynb").read_bytes() == mine and school.copy() == {}
 
 
-def test_name_of_a_lab_may_contain_new(tmp_path):
+def test_lab_name_may_contain_the_word_new(tmp_path):
     school = Class(tmp_path, "one.ipynb", "one.new.ipynb")
     (school.labs / "one.new.ipynb").write_bytes((school.labs / "one.ipynb").read_bytes())
     school.copy()

@@ -367,7 +367,7 @@ def test_many_slow_cases_are_reported_together(monkeypatch):
     )
 
 
-def test_verdicts_without_threads_are_the_same_and_the_host_is_called(monkeypatch):
+def test_verdicts_are_the_same_without_threads_and_the_host_is_notified(monkeypatch):
     tried = [right, prints, lambda h, a: h / 0, lambda h, a: right(0.5, a), half_written]
     before = [check("made.1", answer) for answer in tried]
     told = []
@@ -471,7 +471,7 @@ def inside(lab, mistakes=""):
     lab.exercises["4"] = function(program, lambda rng: cases, mistakes)
 
 
-def test_inputs_of_an_almost_always_true_program_count_as_used(lab):
+def test_inputs_of_a_program_that_is_almost_always_true_count_as_used(lab):
     """With only one case, most wrong programs would seem to use no input."""
     inside(lab)
     assert check("made.4", lambda x, low: low <= x <= 3).holds
@@ -747,7 +747,7 @@ def test_test_that_counts_its_calls_does_not_pass(monkeypatch):
     assert held <= 6 and "its answer changes" in told
 
 
-def test_verdict_on_a_test_does_not_depend_on_the_order(monkeypatch):
+def test_verdict_on_a_test_does_not_depend_on_the_order_of_its_programs(monkeypatch):
     told = set()
     for seed in range(20):
         dice = random.Random(seed)

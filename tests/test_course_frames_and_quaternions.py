@@ -103,7 +103,7 @@ def swung(yaw, tilt):
     return Quaternion.from_angle_axis(yaw, Z) @ Quaternion.from_angle_axis(tilt, X)
 
 
-def test_camera_can_look_at_the_part_for_every_name():
+def test_camera_can_look_at_the_part_for_every_student():
     for k in range(200):
         who = f"student {k}"
         eye, part = places(who)
@@ -156,7 +156,7 @@ def by_its_properties(lead):
     return True
 
 
-def test_property_test_passes_and_program_accepted_by_a_naive_test_is_named():
+def test_property_test_passes_and_the_program_that_a_naive_test_accepts_is_named():
     assert check("frames_and_quaternions.3", by_its_properties).holds
     a, b = (Quaternion.from_angle_axis(x * deg, Z).wxyz for x in (10, 130))
 

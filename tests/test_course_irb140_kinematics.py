@@ -102,13 +102,13 @@ def test_poses_with_four_solutions_pass(ahead, side):
     assert check(POSE, pose).holds
 
 
-def test_solutions_past_a_limit_count():
+def test_solutions_past_a_limit_count_too():
     pose = Transform(turned(170 * deg, X), np.array([720, 0, 100]) * mm)
     assert not within(IRB140, IRB140.ik(pose)).all(axis=1).sum() == 4
     assert check(POSE, pose).holds
 
 
-def test_pose_too_near_for_the_front_solutions_passes():
+def test_pose_that_is_too_near_for_the_front_solutions_passes():
     centre = (
         np.array([70 + 20, 0, 352]) * mm
     )  # 20 mm from the shoulder: the arm cannot fold that far

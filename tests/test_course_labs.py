@@ -85,7 +85,7 @@ def test_last_cell_of_your_turn_makes_the_report(lab):
 
 
 @pytest.mark.parametrize("name", EXERCISES)
-def test_untouched_exercise_is_not_answered_yet(name):
+def test_untouched_exercise_counts_as_unanswered(name):
     lab, _, number = name.partition(".")
     kept = [
         "".join(c["outputs"][0]["data"]["text/plain"])
@@ -191,7 +191,7 @@ def test_no_test_passes_by_a_trick(name, monkeypatch):
 
 
 @pytest.mark.parametrize("name", PREDICTIONS)
-def test_prediction_has_one_correct_option_and_a_reason_for_each(name):
+def test_prediction_has_one_correct_option_and_each_option_has_a_reason(name):
     prediction = book.find(name, "predictions")
     question, options, right = filled(prediction)
     typed = prediction.unit is not None

@@ -104,7 +104,7 @@ def pulses(q, gears):
 
 
 @pytest.mark.parametrize("who", [f"student {k}" for k in range(30)])
-def test_every_name_has_a_feasible_move(who):
+def test_every_student_has_a_feasible_move(who):
     own, q, gear = move(who)
     for gears in ([gear] * 3, [gear, gear + 1, gear + 2]):
         drive = {"gears": gears, "frequencies": list(frequencies(pulses(q, gears), own["most"]))}
@@ -211,7 +211,7 @@ def test_messages_about_drives_show_different_numbers_and_not_the_answer():
     assert check("motor_synchronisation.2", text, who="Ada").mistake == "another kind or shape"
 
 
-def test_lost_steps_come_in_fours_with_another_integrator():
+def test_lost_steps_come_in_fours_with_another_integrator_too():
     # p10 is computed with SciPy, without the windings' time constant, which does not change it
     def lost(frequency):
         theta, omega, since, ends = (

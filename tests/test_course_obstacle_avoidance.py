@@ -94,7 +94,7 @@ def _open_upward(c, H):
 
 
 def _by_products(c, H):
-    """Counts the crossings of the sides, but none at an end point of a side."""
+    """Counts the crossings of the sides, except those at an end point of a side."""
     count = 0
     for P, Q in _sides(c):
         if (P[1] - H[1]) * (Q[1] - H[1]) < 0:
@@ -145,7 +145,7 @@ def test_paths_known_from_the_lab_do_not_get_past_the_bar(who):
 
 
 @pytest.mark.parametrize("who", ["Ada", "Jonas", "your name"])
-def test_paths_around_dense_points_get_past_the_bar(who):
+def test_paths_around_closely_spaced_points_get_past_the_bar(who):
     """The hint about points at a distance h from each other is true, too."""
     task = variant("obstacle_avoidance", who)
     start, (first, last) = np.array(task["start"]) * deg, np.array(task["bar"])

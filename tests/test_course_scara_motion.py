@@ -239,7 +239,7 @@ def test_too_few_turns_are_reported(most, name):
     assert check("scara_motion.1", few).mistake == name
 
 
-def test_case_reports_degrees_and_the_elbow():
+def test_message_about_a_case_gives_degrees_and_the_elbow():
     case = check("scara_motion.1", _zero_is_negative).case
     assert "joint 2 stands at 0.0° in q0, which counts as positive" in case
     case = check("scara_motion.1", _degrees_without_limits).case
@@ -389,7 +389,7 @@ def test_similar_program_does_not_get_the_name_of_another_mistake(answer, name):
     assert check("scara_motion.2", answer).mistake == name
 
 
-def test_case_of_the_limit_test_reports_the_excess():
+def test_message_about_a_case_of_the_limit_test_gives_the_excess():
     law = LAB.module("limits_kept")["law"]
     q = np.tile([0.1, 0.5, 0.2, 0.1], (3, 1))
     for joint, value, told in (
@@ -414,7 +414,7 @@ def _least(mine):
 
 
 @pytest.mark.parametrize("more", [1.0001, 1.05, 1.1])
-def test_every_name_has_a_feasible_blend(more):
+def test_every_student_has_a_feasible_blend(more):
     for who in range(40):
         mine = variant("scara_motion", who)
         b, both = _least(mine)
@@ -476,7 +476,7 @@ def test_prediction_keys_agree_with_other_calculations():
     assert "0.35" in right["p9"] and right["p10"] == "Half of it."
 
 
-def test_corners_are_scaled_copies_about_via():
+def test_corners_of_different_blends_differ_only_in_scale():
     start, via, goal = (LAB.module("shared")[name] for name in ("START", "VIA", "GOAL"))
     x = np.linspace(0, 1, 11)
     for corner in ("parabola", "quintic"):
@@ -512,7 +512,7 @@ def test_slips_in_the_duration_are_named(spoil, name):
     assert not verdict.holds and verdict.mistake == name
 
 
-def test_single_posture_test_gets_a_hint_about_arrays():
+def test_test_of_a_single_posture_gets_a_hint_about_arrays():
     def one_posture(q):
         return all(LOW[i] <= x <= HIGH[i] for i, x in enumerate(q))
 

@@ -71,7 +71,7 @@ def test_mistakes_in_the_posture_are_named(answer, name):
     assert verdict.says and verdict.points < 1
 
 
-def test_one_miss_of_three_costs_a_third():
+def test_one_failed_condition_of_three_costs_a_third():
     assert check("start_here.1", np.array([45, -20, -10, 0, 30, 0]) * deg).points == 0.67
     assert check("start_here.1", np.array([40, -20, -10, 0, 30, 0]) * deg).points == 0.33
 

@@ -275,7 +275,9 @@ def first_and_last_angle(program):
 
 
 def test_test_must_start_from_different_postures():
-    """A second check gives the same verdict: each check makes programs that keep state again."""
+    """A second check gives the same verdict, since each check makes new copies of the programs that
+    keep state.
+    """
     arm, rng = three_lever(1.0), np.random.default_rng(5)
     places = rng.uniform(1.2, 2.8, 100)[:, None] * [np.cos(0.8), np.sin(0.8)]
 
@@ -303,7 +305,7 @@ def test_test_must_look_at_every_angle():
 
 
 @pytest.mark.parametrize("share", [0.95, 0.99])
-def test_margin_inside_the_border_of_a_triangle_is_refused(share):
+def test_answer_that_gives_up_just_inside_the_border_is_refused(share):
     def far(K, alpha, lengths):
         a, b, c = lengths
         KB = np.sqrt(b**2 + c**2 - 2 * b * c * np.cos(alpha))

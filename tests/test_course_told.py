@@ -22,7 +22,7 @@ def test_different_numbers_print_differently(a, b):
     assert abs((float(one) - float(two)) - (a - b)) <= 1.1 * 10.0 ** -len(one.partition(".")[2])
 
 
-def test_rows_get_the_digits_that_their_first_difference_needs():
+def test_rows_are_printed_with_enough_digits_to_differ():
     assert apart([0.766, 0.643, 0], [0.766, 0.6430004, 0], 3) == (
         "0.7660000, 0.6430000, 0.0000000",
         "0.7660000, 0.6430004, 0.0000000",

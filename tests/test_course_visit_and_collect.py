@@ -279,7 +279,7 @@ def test_points_that_are_not_a_trap_are_reported(task, points, mistake):
     assert not verdict.holds and verdict.mistake == mistake, verdict
 
 
-def test_partly_lost_worth_is_reported():
+def test_partial_loss_of_worth_is_reported():
     numbers = variant("visit_and_collect", "your name") | {"worth": [3, 2, 3, 4]}
     points = np.array(turned(numbers, [0.5, -1.35, -1.5, -1.2]))
     name, says = TRAPS["trap_fault"]("worth", points, numbers)
@@ -288,8 +288,8 @@ def test_partly_lost_worth_is_reported():
     assert name == "the rule is not beaten"
 
 
-def test_no_set_of_points_beats_cheapest_first():
-    """The exercise's statement about "collect" is tested against all choices."""
+def test_cheapest_first_collects_as_many_points_as_the_best_choice():
+    """Test the exercise's statement about "collect" by trying all possible choices."""
     numbers = variant("visit_and_collect", 3)
     rng = np.random.default_rng(3)
     for _ in range(100):

@@ -17,7 +17,7 @@ def uneven(n):
     [np.linspace(-1, 2, 40), uneven(40), np.array([0.0, 0.5, 2.0])],
     ids=["even", "uneven", "three"],
 )
-def test_quadratics_are_exact_including_the_ends(t):
+def test_derivatives_of_quadratics_are_exact_even_at_the_ends(t):
     a, b, c = RNG.normal(size=(3, 6))
     values = a + b * t[:, None] + c * t[:, None] ** 2
     assert np.allclose(differentiate(values, t), b + 2 * c * t[:, None], rtol=0, atol=1e-12)

@@ -261,7 +261,7 @@ def test_s1_h_673_samples_of_task_1_are_past_a_limit():
     ).all()
 
 
-def test_s1_j_printed_blend_above_one_half_leaves_both_ends():
+def test_s1_j_printed_blend_above_one_half_misses_both_ends():
     ends = printed_blend(START, VIA, GOAL, 0.55, np.array([0.0, 1.0])).translation / mm
     assert abs(ends[0] - [198.181818, 402.045455, 197.954545]).max() < 1e-6
     assert abs(ends[1] - [298.181818, 302.045455, 497.954545]).max() < 1e-6

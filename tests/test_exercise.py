@@ -412,7 +412,7 @@ BROKEN = {
         CASES,
         ".md, line 9: wanted a section 'Solution' with a program",
     ),
-    "a solution that is no Python": (
+    "a solution that is not Python": (
         altered(("np.cos(elbow)\n", "np.cos(elbow\n")),
         CASES,
         ".md, line 17: not Python: '(' was never closed",
@@ -422,7 +422,7 @@ BROKEN = {
         CASES,
         ".md, line 12: wanted a program that defines a function",
     ),
-    "a solution that needs what is not there": (
+    "a solution that imports a missing module": (
         altered(("import numpy as np", "import numpy_ as np")),
         CASES,
         ".md, line 12: the solution: ModuleNotFoundError: No module named 'numpy_'",
@@ -442,7 +442,7 @@ BROKEN = {
         CASES,
         ".md, line 27: 'one link squared': `l3**2` occurs 0 times in the solution, wanted once",
     ),
-    "an edit whose piece stands twice": (
+    "an edit whose piece occurs twice": (
         altered(("`l2**2` →", "`**2` →")),
         CASES,
         ".md, line 27: 'one link squared': `**2` occurs 2 times in the solution, wanted once",
@@ -452,12 +452,12 @@ BROKEN = {
         CASES,
         ".md, line 27: 'one link squared': its pieces overlap",
     ),
-    "an edit that gives no Python": (
+    "an edit whose result is not Python": (
         altered(("`l2**2` → `l2`", "`l2**2` → `l2 **`")),
         CASES,
         ".md, line 27: 'one link squared': not Python: invalid syntax",
     ),
-    "a wrong program of another name": (
+    "a wrong program with another name": (
         altered(("- `l2**2` → `l2`\n", "```python\ndef reaches(a, b, c):\n    return a\n```\n")),
         CASES,
         ".md, line 28: 'one link squared': the program does not define reach",
@@ -469,7 +469,7 @@ BROKEN = {
     ),
     "no Python file": (altered(), None, ".md: wanted a function cases(rng) in its Python file"),
     "no cases": (altered(), "x = 1\n", ".md: wanted a function cases(rng) in its Python file"),
-    "a Python file that is none": (
+    "a Python file that is not Python": (
         altered(),
         f"{CASES}\nx = (\n",
         ".py, line 4: SyntaxError: '(' was never closed",
@@ -480,8 +480,12 @@ BROKEN = {
         ".py, line 5: ZeroDivisionError: division by zero",
     ),
     "a Python file that is not UTF-8": (altered(), CASES.encode() + b"'\xe9'\n", ".py"),
-    "another one of the number": (altered(), CASES, ".md, line 1: 1 is also the number of a.md"),
-    "right programs without one": (
+    "an exercise with the same number": (
+        altered(),
+        CASES,
+        ".md, line 1: 1 is also the number of a.md",
+    ),
+    "right programs without a program": (
         altered(text=f"{REACH}\n## Right programs\n\n**plain.** None.\n"),
         CASES,
         ".md, line 30: wanted a section 'Right programs' with a program",
@@ -491,12 +495,12 @@ BROKEN = {
         CASES,
         ".md, line 32: wanted '**what is special.**' above the program",
     ),
-    "a right program that is no Python": (
+    "a right program that is not Python": (
         altered(("return x + x", "return x +"), text=RIGHTS),
         None,
         ".md, line 26: 'by sums': not Python: invalid syntax",
     ),
-    "a right program of another name": (
+    "a right program with another name": (
         altered(("twice(x):\n    return x + x", "double(x):\n    return x + x"), text=RIGHTS),
         None,
         ".md, line 26: 'by sums': the program does not define twice",
@@ -535,7 +539,10 @@ UNDRAWN = {
     "cases that return nothing": ("    list(rng.uniform(0, 1, 3))\n", "It raises TypeError"),
     "no cases at all": ("    return []\n", "wanted tuples of l1, l2, elbow, got []"),
     "cases of another kind": ("    return [1, 2]\n", "wanted tuples of l1, l2, elbow, got [1, 2]"),
-    "cases of too few": ("    return [(1, 2)]\n", "wanted tuples of l1, l2, elbow, got [(1, 2)]"),
+    "cases with too few inputs": (
+        "    return [(1, 2)]\n",
+        "wanted tuples of l1, l2, elbow, got [(1, 2)]",
+    ),
     "cases that never end": ("    while True:\n        pass\n", "It never ends"),
 }
 
@@ -663,13 +670,13 @@ UNPREDICTED = {
         "",
         "line 3: p1: wanted answers with different names, all but one with a confusion",
     ),
-    "two names alike": (
+    "two equal names": (
         PREDICTED.replace("`whole`", "`half`"),
         "",
         "line 3: p1: wanted answers with different names, all but one with a confusion",
     ),
     "one answer": (PREDICTED.replace(OPTION, ""), "", "line 3: p1: wanted answers with different"),
-    "an answer that is none": (
+    "an answer in the wrong form": (
         PREDICTED.replace("**1 m.**", "1 m."),
         "",
         "line 3: wanted '- `name` **An answer.** Why. *The confusion:* a case'",

@@ -291,7 +291,7 @@ def test_joint_explorer_names_singularities(opened):
     assert shown.look().says == "Singular: wrist singularity."
 
 
-def test_explorer_says_nothing_of_singularities_unless_asked(opened):
+def test_explorer_says_nothing_about_singularities_unless_asked(opened):
     shown = opened(joint_explorer(IRB140, np.zeros(6)), IRB140)
     text = shown.page.locator(".rk").inner_text()
     assert "ingular" not in text and "ellipsoid" not in text and "quaternion" in text
@@ -1203,7 +1203,7 @@ def test_ghost_postures_show_all_joints(opened):
     )
 
 
-def test_arm_fills_the_scene_on_opening(opened):
+def test_arm_fills_the_scene_when_the_page_opens(opened):
     for make in (joint_explorer, target_explorer):
         for arm in (IRB140, SCARA, PUMA560):
             shown = opened(make(arm), arm)

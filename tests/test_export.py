@@ -1,4 +1,4 @@
-"""`python -m robokin.course export` makes a single page of a lab that works without a network."""
+"""`python -m robokin.course export` turns a lab into a single page that works without a network."""
 
 import json
 import re
@@ -113,7 +113,7 @@ def test_command_reports_a_bad_file_and_exports_the_others(tmp_path):
     assert "00_start_here.html" in run.stdout and " kB" in run.stdout
 
 
-def test_foreign_files_are_not_overwritten(tmp_path, monkeypatch, capsys):
+def test_files_that_are_not_ours_are_not_overwritten(tmp_path, monkeypatch, capsys):
     monkeypatch.chdir(tmp_path)
     mine = tmp_path / "00_start_here.html"
     mine.write_text("mine")

@@ -90,7 +90,7 @@ def test_labels_of_moving_things_are_next_to_them():
         assert len(found) == shown and np.linalg.norm(found[-1] - found[0]) > 50
 
 
-def test_foreign_files_are_kept_and_large_films_are_refused(tmp_path, monkeypatch):
+def test_other_files_are_kept_and_large_films_are_refused(tmp_path, monkeypatch):
     player = animate(IRB140, T, WAY)
     mine = tmp_path / "mine.gif"
     Image.new("RGB", (4, 4)).save(mine)

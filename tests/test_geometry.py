@@ -1,4 +1,6 @@
-"""Geometries: links and inverse from the same lengths, one tolerance, sentences for reasons."""
+"""Geometries: links and inverse come from the same lengths, one tolerance applies everywhere, and
+each reason has a sentence.
+"""
 
 import dataclasses
 
@@ -70,7 +72,7 @@ def test_ik_and_fk_agree_for_links_of_any_lengths(seed):
         assert np.isnan(rows).any(-1).tolist() == np.isnan(rows).all(-1).tolist()
 
 
-def test_links_and_inverse_cannot_be_separated():
+def test_links_cannot_change_without_the_inverse():
     links = list(IRB140.links)
     links[2] = dataclasses.replace(links[2], before=Transform(translation=(0, 0, 498 * mm)))
     with pytest.raises(TypeError, match="links"):
@@ -184,7 +186,7 @@ def test_ik_of_equal_links_is_accurate_near_the_shoulder(exponent):
     the distance.
     """
     d = 10.0**-exponent
-    # A point nearer to axis 1 than 1e-13 times the reach counts as on it, so joint 1 is free.
+    # A point nearer to axis 1 than 1e-13 times the reach counts as lying on it, so joint 1 is free.
     tolerance = 4e-15 if exponent < 12 else 4e-13
     angle = np.linspace(0, TURN, 13)
     circle = np.stack([np.cos(angle), np.sin(angle), 0 * angle], axis=-1) * d

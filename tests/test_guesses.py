@@ -150,7 +150,7 @@ HOSTILE = [
 
 
 @pytest.mark.parametrize("text", HOSTILE, ids=lambda text: text[:70])
-def test_foreign_file_is_refused_and_not_overwritten(tmp_path, text):
+def test_file_that_is_not_ours_is_refused_and_not_overwritten(tmp_path, text):
     lab = notebook(tmp_path / "lab.ipynb", f'predict("{P1}", "c")')
     written(tmp_path, text)
     with pytest.raises(ValueError, match=r"guesses\.json cannot be used: "):
@@ -287,7 +287,7 @@ def test_unreadable_line_is_reported(tmp_path):
     assert len(remarks) == 1 and "guesses: wanted" in remarks[0] and "all b" in remarks[0]
 
 
-def test_copied_notebook_mentions_other_guesses_and_uses_none(tmp_path):
+def test_report_on_a_copied_notebook_mentions_other_guesses_but_uses_none(tmp_path):
     lab = notebook(tmp_path / "lab.ipynb", ids=[P1, TYPED])
     number = TYPED.partition(".")[2]
     made = [(P1, "b", at(1)), (P1, "c", at(2)), (TYPED, "-290", at(3)), (f"{LAB}.p99", "a", at(4))]
@@ -413,7 +413,7 @@ def test_guess_without_a_path_goes_to_the_only_kernel(page):
     assert made_in(page) == [[]] and "Run All Cells" in told(one).inner_text()
 
 
-def test_late_kernel_receives_earlier_guesses(page):
+def test_kernel_that_starts_late_receives_earlier_guesses(page):
     (one,) = shown(page, "Path: a.ipynb")
     answer(one, "b")
     answer(one, "c", again=True)

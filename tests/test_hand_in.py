@@ -192,7 +192,7 @@ def test_missing_notebook_is_reported(desk):
     assert "no notebook with this lab's exercises" in report("Ada")
 
 
-def test_vs_code_provides_the_file(desk, monkeypatch):
+def test_path_of_the_notebook_comes_from_vs_code(desk, monkeypatch):
     monkeypatch.delenv("JPY_SESSION_NAME")
     stored(desk.lab, IMPORTS, CHECK)
     space = {"__vsc_ipynb_file__": str(desk.lab)}
@@ -325,7 +325,7 @@ def _prose(name):
 # --- Reports written in JupyterLab ----------------------------------------------------------------
 
 
-def test_lab_00_is_handed_in_from_jupyterlab(jupyter, browser):
+def test_lab_00_can_be_handed_in_from_jupyterlab(jupyter, browser):
     """A student's steps: change the answer and the name, run all, get the message to save, save,
     hand in.
     """

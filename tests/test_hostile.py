@@ -443,7 +443,7 @@ def test_forged_outputs_are_rewritten_or_left_out(listening):
     assert again("<p>words</p>", "abc") is None
 
 
-def test_own_outputs_are_unchanged():
+def test_our_own_outputs_are_unchanged():
     for made in (
         target_explorer(IRB140),
         predict("irb140_motion.p1"),
@@ -545,7 +545,7 @@ def test_invalid_page_data_are_refused(change):
     assert not fits(data, Page)
 
 
-def test_pictures_come_only_from_the_folder(tmp_path):
+def test_pictures_come_only_from_the_notebooks_folder(tmp_path):
     png = base64.b64decode("iVBORw0KGgo=")
     folder = tmp_path / "labs"
     (folder / "images").mkdir(parents=True)

@@ -180,7 +180,7 @@ def test_commands_in_the_readme_match_those_of_the_program():
     assert {*used} == set(re.findall(r"^    (\w+)  ", told, re.M)) - {"export"}
 
 
-def test_pins_are_exact_installed_and_within_the_ranges():
+def test_pinned_versions_are_installed_and_within_the_ranges():
     lines = (ROOT / "environment.txt").read_text().splitlines()
     pins = dict(line.split("==") for line in lines if line and not line.startswith(("#", "-")))
     assert "-e .[labs]" in lines

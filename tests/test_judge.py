@@ -36,7 +36,7 @@ IMPORTS = "from robokin.course import check, predict, variant\nimport numpy as n
 # --- Points for answers ---------------------------------------------------------------------------
 
 
-def test_missing_raising_and_endless_answers_are_judged(tmp_path):
+def test_answers_that_are_missing_or_raise_or_never_end_are_judged(tmp_path):
     lab = stored(
         tmp_path / "03_irb140_motion Ada.ipynb",
         IMPORTS,
@@ -149,7 +149,7 @@ def _command(process_):
 
 
 @pytest.mark.skipif(sys.platform != "linux", reason="a process may survive on other systems")
-def test_other_processes_are_not_ended():
+def test_other_processes_keep_running():
     marks = ("one", "two")
     both = [
         subprocess.Popen([sys.executable, "-c", "input()"], stdin=subprocess.PIPE, env=env)

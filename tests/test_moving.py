@@ -107,7 +107,7 @@ def test_obstacle_motion_changes_the_plan(answers):
     assert np.mean(np.array(still) < KEPT) > 0.3
 
 
-def test_wait_is_the_shortest_that_works_and_search_is_the_last_resort(answers):
+def test_plan_waits_no_longer_than_needed_and_searches_only_as_a_last_resort(answers):
     compared = []
     for (q0, K1, H, v), (answer, times) in answers:
         if "At the start" in answer.words:

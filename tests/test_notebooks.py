@@ -171,7 +171,7 @@ def test_names_in_code_are_ascii(code):
             ), token
 
 
-def test_no_invisible_or_broken_characters(cells):
+def test_cells_contain_no_invisible_or_broken_characters(cells):
     for cell in cells:
         odd = {
             char
@@ -202,7 +202,7 @@ def test_notebooks_have_one_title(prose):
 def test_labs_have_all_parts_in_the_same_order(lab):
     text = _prose(lab)
     for heading in HEADINGS:
-        assert re.search(rf"^(#+ |\*\*){heading}", text, re.M), f"no '{heading}'"
+        assert re.search(rf"^(#+ |\*\*){heading}", text, re.M), f"the part '{heading}' is missing"
     titles = re.findall(r"^## (.*)$", text, re.M)
     places = [titles.index(part) for part in titles if part.split(" (")[0] in PARTS]
     assert titles[places[0] :] == [titles[k] for k in places], "another section follows 'Your turn'"

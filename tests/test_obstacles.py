@@ -153,9 +153,10 @@ def test_clearance_and_via_points_match_the_reference_cases(case):
         )
 
 
-def test_via_points_are_perpendicular_and_on_the_side_of_the_base():
-    """Errata S3-m: the printed formulas give (1.556, 1.131) and (1.429, 0.876) here: neither is
-    perpendicular, and one is on the wrong side.
+def test_via_points_lie_at_right_angles_and_on_the_side_of_the_base():
+    """Seen from the obstacle, a via point is at right angles to its end of the path. Errata S3-m:
+    the printed formulas give (1.556, 1.131) and (1.429, 0.876) here; neither is at right angles,
+    and one is on the wrong side.
     """
     H, K, K1 = np.array([1.5, 1]), np.array([1.2, 1.7]), np.array([1.9, 0.3])
     K2, K3 = via_points(K, K1, H, 1 / 7)
@@ -564,7 +565,7 @@ def test_search_finds_paths_with_a_small_clearance(drawn):
     assert sum(found) >= 13
 
 
-def test_search_reaches_targets_with_few_postures():
+def test_search_reaches_targets_that_few_postures_reach():
     """Near full stretch the target's family is short; at full stretch it is a single posture;
     beyond it there is no posture and no path.
     """
@@ -612,7 +613,7 @@ def test_search_finds_a_path_where_one_was_constructed():
     assert solved == count
 
 
-def test_plan_posture_starts_the_next_task():
+def test_next_task_can_start_from_the_posture_of_a_plan():
     posture = np.array([100, 110, 120]) * deg
     for target, obstacle in (
         ((1.8, 0.6), (1.2, 2.1)),

@@ -99,7 +99,7 @@ def test_blend_matches_the_lines_outside_its_corner(corner, b):
 
 
 @corners
-def test_zero_blend_is_lin_lin(corner):
+def test_blend_of_zero_equals_lin_lin(corner):
     s = np.linspace(0, 1, 1001)
     assert difference(blend(START, VIA, GOAL, 0.0, s, corner), lin_lin(START, VIA, GOAL, s)) == 0
 
@@ -227,7 +227,7 @@ def test_motion_with_a_smooth_law_rests_at_both_ends():
 
 
 @corners
-def test_fractions_broadcast_with_s(corner):
+def test_blend_fractions_broadcast_with_s(corner):
     b, s = np.linspace(0, 0.5, 6), np.linspace(0, 1, 41)
     T = blend(START, VIA, GOAL, b[:, None], s, corner)
     assert T.shape == (6, 41)
@@ -292,7 +292,7 @@ def test_a_straight_corner_stays_straight(corner):
 @given(
     st.integers(0, 2**32 - 1), st.floats(0, 0.5, allow_subnormal=False), st.sampled_from(CORNERS)
 )
-def test_every_blend_is_continuous_and_between_its_poses(seed, b, corner):
+def test_every_blend_is_continuous_and_stays_between_its_poses(seed, b, corner):
     rng = np.random.default_rng(seed)
     wxyz = rng.normal(size=(3, 4))
     points = Transform(

@@ -82,7 +82,7 @@ def test_forward_kinematics_matches_the_oracle(case):
 
 
 @pytest.mark.parametrize("case", UNREACHED)
-def test_target_out_of_range_has_no_postures_and_a_reason(case):
+def test_target_out_of_range_has_no_postures_and_gets_a_reason(case):
     arm = three_lever(case["L"])
     assert np.isnan(arm.family(case["K"], [1.0, 2.0, np.pi])).all()
     assert (
@@ -299,8 +299,8 @@ def test_out_of_reach_and_the_family_agree_at_the_borders():
 
 
 def test_plane_tolerance_is_the_rounding_error_of_the_arm():
-    """A point off the plane by less than 1e-12 of the reach counts as on it, for an arm of any
-    size.
+    """A point off the plane by less than 1e-12 of the reach counts as lying on it, for an arm of
+    any size.
     """
     for size in (1e-3, 1.0, 1e3):
         two, three = two_link(size, size), three_lever(size)
@@ -446,8 +446,8 @@ def test_families_of_unequal_levers_end_where_the_triangle_ends(lengths):
 
 @unequal
 def test_every_posture_of_unequal_levers_is_in_the_family(lengths):
-    """Any three angles between 0 and 180 degrees are the family's posture for their own alpha if K
-    is farther away than |OB - BA| + AK; if K is nearer, some are not.
+    """If K is farther away than |OB - BA| + AK, every posture with angles between 0 and 180 degrees
+    is the family's posture at its alpha; if K is nearer, some are not.
     """
     arm, rng = three_lever(lengths), np.random.default_rng(35)
     q = rng.uniform(0, np.pi, (20_000, 3))

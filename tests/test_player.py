@@ -313,7 +313,7 @@ def test_motion_without_any_solution_is_shown(motions):
     assert player.data["arms"][0]["via"] == [None] and "<img" in player.html
 
 
-def test_jump_by_two_pi_breaks_the_curve_and_is_not_a_speed(motions):
+def test_jump_by_two_pi_breaks_the_curve_and_does_not_count_as_a_speed(motions):
     q = motions[1].copy()
     q[1200:, 3] += 2 * np.pi
     player = animate(IRB140, T, q)
@@ -1217,7 +1217,7 @@ PAINTED = """selector => {
     return data.filter((value, i) => i % 4 === 3 && value).length; }"""
 
 
-def test_picture_is_drawn_again_after_the_player_was_hidden(page, blended, tmp_path):
+def test_picture_is_drawn_again_after_the_player_has_been_hidden(page, blended, tmp_path):
     """As during a theme change in JupyterLab, a picture is requested while the player is hidden;
     afterwards the player has its old size again, so that no resize is reported.
     """
@@ -1299,7 +1299,7 @@ def test_page_that_cannot_draw_keeps_the_still(page, blended, tmp_path):
         assert page.locator("canvas").count() == 0
 
 
-def test_scene_projects_points_and_can_be_held(page, blended):
+def test_scene_projects_points_and_can_hold_its_camera_still(page, blended):
     """For handles over the canvas, `cameras` projects points as in the picture; while the scene is
     held, a target that leaves the picture moves nothing else.
     """

@@ -457,7 +457,7 @@ def test_links_join_the_frames_of_every_arm(machine):
 
 
 @pytest.mark.parametrize("arm", [*(m.arm for m in MACHINES), PLANAR], ids=lambda arm: arm.name)
-def test_figure_is_well_filled_and_not_cut_off(arm):
+def test_view_fills_its_figure_and_is_not_cut_off(arm):
     q = np.linspace(0.1, 0.9, 40)[:, None] * np.where(arm.prismatic, arm.limits[:, 1], 1.0)
     fig = plot_postures(arm, q, targets=[arm.fk(q[0]), arm.fk(q[-1])], title="A title")
     ink = np.asarray(Image.open(io.BytesIO(palette_png(fig))).convert("L")) < 250
@@ -578,7 +578,7 @@ def test_ellipsoid_contains_the_velocities_without_rotation(machine):
     assert 0.9 * longest < np.linalg.norm(seen, axis=-1).max() < longest * (1 + 1e-9)
 
 
-def test_singular_wrist_loses_one_direction():
+def test_ellipsoid_of_a_singular_wrist_loses_one_direction():
     q = np.array([[20, 70, -60, 30, 50, 10], [20, 70, -60, 30, 0, 10]]) * deg
     lengths = np.linalg.norm(velocity_ellipsoid(ITMO6R, q), axis=-2)
     assert lengths[0].min() > 0.02 and lengths[1, :2].min() > 0.02 and lengths[1, 2] < 1e-12

@@ -249,7 +249,7 @@ def test_turn_by_two_pi_between_samples_is_a_jump():
 
 
 @pytest.mark.parametrize("size, leap", [(0.0019, False), (0.0021, True), (3.0, True)])
-def test_step_from_rest_is_a_jump_above_0_002_rad(size, leap):
+def test_step_from_rest_is_a_jump_above_2_mrad(size, leap):
     t = np.linspace(0, 1, 101)
     q = np.zeros((101, 6))
     q[50:, 0] = size

@@ -103,7 +103,7 @@ def test_oddities_are_reported(hostile):
     assert len(hostile.text.encode()) < hostile.lab.stat().st_size + 500_000 + 200_000
 
 
-def test_predictions_are_reported_as_made(hostile):
+def test_predictions_are_reported_as_they_were_made(hostile):
     made = {each["id"].partition(".p")[2]: each for each in hostile.data["predictions"]}
     assert len(made) == len(book.lab("scara_motion").predictions)
     for number, letter in (("1", "a"), ("2", "c")):

@@ -75,7 +75,7 @@ def test_every_capability_of_a_document_has_a_target(source):
     for row, what, where, names in rows:
         assert len(what) > 8, row
         if where.startswith(("decided against:", "not yet:")):
-            assert len(where) > 40, f"{row}: no reason"
+            assert len(where) > 40, f"{row}: the reason is missing"
             continue
         links = re.findall(r"\[(\w+)(?: ([^\]]+))?\]\(([^)]+)\)", where)
         assert links, f"{row}: {where}"
@@ -112,7 +112,7 @@ def test_findings_are_resolved_at_their_targets(line):
     assert len(line["what"]) > 10
     for place in line["where"].split(", "):
         if re.fullmatch(r"later|decided against", place):
-            assert len(line["what"]) > 30, "no reason"
+            assert len(line["what"]) > 30, "the reason is missing"
         elif match := re.fullmatch(r"(\d\d)(?: (.+))?", place):
             assert has_section(LABS[match[1]], match[2] or ""), place
         elif match := re.fullmatch(r"companion (00\d)(?: (§\d+))?", place):

@@ -341,7 +341,7 @@ def test_the_pumas_front_and_back_rows_coincide_at_distance_d3_from_axis_1():
 
 
 @six
-def test_poses_at_limits_and_whole_turns_have_their_rows(machine):
+def test_poses_at_limits_and_at_whole_turns_have_all_their_rows(machine):
     arm = machine.arm
     rng = np.random.default_rng(14)
     q = rng.uniform(arm.limits[:, 0], arm.limits[:, 1], (1200, 6))

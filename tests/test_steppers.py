@@ -140,7 +140,7 @@ def test_frequencies_solve_the_corrected_linear_program(phi):
     assert (frequencies(phi)[~moving] == 0).all()
 
 
-def test_the_printed_conditions_make_the_motor_with_most_pulses_the_slowest():
+def test_the_printed_conditions_make_the_motor_with_the_most_pulses_the_slowest():
     phi = np.array([1000.0, 500, 250])
     printed = linprog(
         -phi, A_eq=[[1000, -500, 0], [1000, 0, -250]], b_eq=[0, 0], bounds=[(0, LIMIT)] * 3
@@ -220,7 +220,7 @@ def test_unsynchronised_motors_stop_one_after_another(start, goal):
 
 
 @pytest.mark.parametrize("points", [B, C])
-def test_only_the_straight_move_is_straight(points):
+def test_only_the_straight_move_keeps_to_the_line(points):
     n = counts(station_postures(ARM, points), PER_DEGREE)
     b = straight(ARM, *points, PER_DEGREE)
     a, d = unsynchronised(*n), synchronised(*n)

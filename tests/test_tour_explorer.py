@@ -84,7 +84,7 @@ def test_tours_match_those_of_the_package_for_the_points_in_reach():
             assert told[name]["times"] == list(result.times)
 
 
-def test_best_order_of_many_points_is_computed_on_release():
+def test_best_order_of_many_points_is_computed_only_after_release():
     rng = np.random.default_rng(4)
     cloud = some(rng, 60)
     cloud = cloud[workspace(5, 4, cloud).all(axis=-1)][: WHILE_HELD + 1].tolist()

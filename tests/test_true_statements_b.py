@@ -166,7 +166,7 @@ def test_three_of_eight_rows_are_usable_at_six_seconds():
 # --- Lab 08 ---------------------------------------------------------------------------------------
 
 
-def test_first_come_wins_at_the_stated_belt_speed():
+def test_first_come_rule_wins_at_the_stated_belt_speed():
     v, missed, total = said(
         "08", "belt-row", r"at (\d+) mm/s it misses (\d+) of the (\d+), and \"first come.*all\."
     )
@@ -368,7 +368,7 @@ def test_distances_are_proven_with_the_stated_numbers_of_intervals():
     assert round(least_distance([a, b], H) / mm, 1) == truth
     assert {yes * mm, edge * mm, no * mm} <= set(tries("10", "whole-code"))
     room = lever_distance(a, H)
-    assert room > 1 and proven(a, a, H, 0.9 * room) == (True, 1), "a motion without movement"
+    assert room > 1 and proven(a, a, H, 0.9 * room) == (True, 1), "a motion that does not move"
     assert proven(a, a, H, 1.1 * room) == (False, 1)
 
 

@@ -187,7 +187,7 @@ def test_axis_5_points_in_the_stated_direction():
     assert np.arccos(axis @ ways["below"]) / deg == pytest.approx(below, abs=1e-3)
 
 
-def test_back_shoulder_is_farther_by_the_stated_distance():
+def test_back_shoulder_is_farther_away_by_the_stated_distance():
     hint = find("irb140_kinematics.2", "exercises").hints[1]
     ahead, more = numbers(r"At its height .* more than (\d+) mm ahead is (\d+) mm farther", hint)
     for x in (ahead + 1, 300, 800):  # the shoulder is at +70 or -70 mm
@@ -215,7 +215,7 @@ def test_speeds_of_joint_1_and_the_change_in_speed_at_via_are_as_stated():
 # --- Labs 04 to 06 --------------------------------------------------------------------------------
 
 
-def test_notch_begins_and_tool_passes_joint_1_where_stated():
+def test_notch_begins_and_tool_is_behind_joint_1_where_stated():
     hole, notch = numbers(
         r"between (\d+) mm and 450 .* from (\d+) mm on", shown("04", "zone-figure")
     )
@@ -351,7 +351,7 @@ def test_finer_steps_leave_the_stated_number_of_lines():
     assert question.startswith(f"{served} random straight lines")
 
 
-def test_first_come_meets_its_objects_where_stated():
+def test_first_come_rule_meets_its_objects_where_stated():
     text = flat("08", "belt-row")
     assert "each of its first seven objects farther from the bin than the one before" in text
     assert "from the fourth on in the far two fifths" in text
@@ -369,7 +369,9 @@ def test_first_come_meets_its_objects_where_stated():
         "belt-work",
     )
     far = principal_postures(500 * mm, 400 * mm, made["window"]) - made["q_bin"]
-    assert (np.diff(abs(far).max(axis=-1)) > 0).all(), "farther along is farther from the bin"
+    assert (np.diff(abs(far).max(axis=-1)) > 0).all(), (
+        "places farther along the belt are farther from the bin"
+    )
     first, soonest = (
         np.array([place for _, _, place in made["work"](made["uneven"], 0.15, come)[0]])
         for come in (True, False)

@@ -218,7 +218,7 @@ def test_straight_line_takes_longer_if_the_motor_at_the_limit_changes():
     assert kinds == {True, False}
 
 
-def test_turn_rule_by_size_alone_fails_in_the_stated_range():
+def test_rule_that_looks_only_at_the_size_of_a_turn_fails_in_the_stated_range():
     text = flat("11", "turn-look")
     low, high = numbers(r"for \$-(\d+)° < d < -(\d+)°\$ the rule gives minus the right turn", text)
     for d in np.arange(-899.5, 0):

@@ -88,7 +88,7 @@ def test_angles_can_be_interpolated_if_only_one_of_them_changes():
     assert apart(middle(*back), about([0, 1, 0], np.pi / 3)) > 60 * deg
 
 
-def test_scalar_part_joint_without_a_jump_and_parallel_axes_are_as_stated():
+def test_statements_on_scalar_parts_speed_jumps_and_parallel_axes_are_true():
     assert "a point not square to the axis gets a scalar part" in flat("01", "two-signs")
     u, q = np.array([1, 2, 2]) / 3, 0.4
     for point in ([2.0, -1, 0], [0.3, 1, 2]):
@@ -110,7 +110,7 @@ def test_scalar_part_joint_without_a_jump_and_parallel_axes_are_as_stated():
         assert np.linalg.norm(np.cross(*turns)) < 1e-5
 
 
-def test_tip_is_along_the_base_x_axis_only_if_the_tool_points_there():
+def test_moving_the_tip_along_base_x_is_right_only_if_the_tool_points_that_way():
     says = "The tip is put along the base's x axis: right only while the tool points along it."
     assert says in written("irb140_kinematics")
     assert flat("02", "short").count("Every angle but joint 3's comes from atan2.") == 1
@@ -318,7 +318,7 @@ def test_rows_4_to_6_end_with_a_joint_wound_past_its_limit():
     assert ends == [3, 4, 5, 6] and wound == [4, 5, 6]
 
 
-def test_worst_case_folded_arm_and_flat_ellipsoid_are_as_stated():
+def test_statements_on_the_worst_case_folded_arms_and_the_ellipsoid_are_true():
     words = flat("07", "near")
     assert "arm stretched or folded" in words and "so divided, of length $\\sigma$" in words
     q = np.array([10, 60, -93, 20, 30, 40]) * deg
@@ -581,7 +581,7 @@ def test_generated_c_has_only_doubles_and_rims_are_described_alike():
     assert anything in flat("12", "your-turn-3") and anything in written("two_link_code_generation")
 
 
-def test_between_two_jumps_the_arm_leaves_the_tip():
+def test_between_two_jumps_the_arm_misses_the_tip():
     assert "and between two jumps the arm leaves the marked tip." in flat("12", "casts-drag")
     made = {"np": np}
     exec(cells("12")["casts-code"], made)

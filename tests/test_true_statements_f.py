@@ -70,7 +70,7 @@ def test_lerp_between_rotations_is_not_a_rotation():
         assert all(np.linalg.det(mean) < 1 - 1e-6 for mean in means)
 
 
-def test_last_hint_for_slerp_catches_every_mistake():
+def test_test_in_the_last_hint_for_slerp_catches_every_mistake():
     exercise = book.find("frames_and_quaternions.3", "exercises")
     hint = one_line(exercise.hints[2])
     assert (
@@ -159,7 +159,7 @@ def test_joint_1_is_fastest_in_the_middle_of_the_line():
     assert (speed > 0.9 * speed.max()).mean() > 0.1  # a broad peak, not "at one place"
 
 
-def test_trapezoid_brakes_at_full_strength_to_the_end():
+def test_trapezoid_brakes_at_full_strength_right_to_the_end():
     reason = one_line(option("irb140_motion.p4", "trapezoidal").reason)
     assert "brakes at full strength to the very end, where the quintic fades out." in reason
     bell = one_line(option("irb140_motion.p4", "triangle").second)
@@ -300,7 +300,7 @@ def test_area_formula_holds_or_the_cell_says_that_it_does_not(stops, stop):
 # --- Lab 05 ---------------------------------------------------------------------------------------
 
 
-def test_only_a_rotation_about_the_tools_axis_keeps_the_wrist_centre():
+def test_only_a_rotation_about_the_tools_axis_leaves_the_wrist_centre_in_place():
     found = option("scara_motion.p1", "q1+q2+q3+q4")
     assert "a tilt moves the wrist centre, which joints 1 to 3 carry." in one_line(found.reason)
     assert (
@@ -373,7 +373,7 @@ def singular_too(program, right):
     return found
 
 
-def test_hint_and_solution_reject_a_program_with_only_a_better_root():
+def test_hint_and_solution_reject_a_program_that_only_improves_the_root():
     made = lab_06()
     right, better = made["my_wrist"], singular_too(made["better_root"], made["my_wrist"])
     worst = {1e-10: 1e-6, 1e-9: 1e-7, 1e-8: 1e-8, 1e-7: 1e-9}

@@ -152,7 +152,7 @@ def test_another_round_trip_beats_nearest_first_as_stated():
     assert max(round_trip(legs, order, 7.5) for order in orders) == 0
 
 
-def test_bag_emptied_at_the_end_is_judged_by_round_trips():
+def test_tours_with_a_bag_emptied_at_the_end_count_as_round_trips():
     module = book.lab("visit_and_collect").module("predictions")
     shared = book.lab("visit_and_collect").module("shared")
     beaten = 0
@@ -263,7 +263,7 @@ def arms_needed(v, spread, seed):
     return count
 
 
-def test_belt_table_shows_one_stream_and_others_need_one_more_arm():
+def test_belt_table_shows_one_stream_and_other_streams_need_one_more_arm():
     words = flat("08", "belt-look")
     assert "at all six speeds. At spread 0.5 it is one arm too few at three of them, at" in words
     assert "at spread 1 at five. These are the streams of one order of the gaps, `seed=8`." in words
@@ -404,7 +404,7 @@ def test_random_choice_turns_less_as_often_as_stated_but_never_from_the_same_pos
     assert (thrown > could - 1e-4).all()
     assert (thrown > could + 0.1).sum() > 95
     assert abs(thrown - least).min() > 0.01 and (thrown < least).sum() == fewer == 14
-    # a throw can turn less than the other arm in a single task, but not in the sum
+    # a throw can turn less than the other arm in a single task, but not in total
     assert (least - thrown).max() == pytest.approx(65.9, abs=0.05)
     assert thrown.sum() > 1.4 * least.sum()
 

@@ -48,7 +48,7 @@ def test_two_pairs_of_rows_coincide_at_the_suggested_pose():
 # --- Lab 08 ---------------------------------------------------------------------------------------
 
 
-def test_greatest_speed_of_the_sinking_arms_joint_2_is_as_shown():
+def test_greatest_speed_of_joint_2_of_the_sinking_arm_is_as_shown():
     """By the law of cosines, L2^2 = r^2 + L1^2 - 2 r L1 cos(gamma); the tool sinks at 1 m/s."""
     (count, told) = numbers(
         r"greatest speed of (\d+) samples (\S+) °/s \(joint 2\)", shown("08", "zone-player")
@@ -68,7 +68,7 @@ def test_greatest_speed_of_the_sinking_arms_joint_2_is_as_shown():
     assert count == 421 and told == pytest.approx(max(speeds) / deg, abs=0.06)
 
 
-def test_greatest_speed_of_each_belt_arms_joint_1_is_2_rad_per_second():
+def test_joint_1_of_every_belt_arm_reaches_2_rad_per_second():
     told = re.findall(
         r"greatest speed of (\d+) samples (\S+) °/s \(joint 1\)", shown("08", "belt-player")
     )
@@ -76,7 +76,7 @@ def test_greatest_speed_of_each_belt_arms_joint_1_is_2_rad_per_second():
     assert {speed for _, speed in told} == {f"{math.degrees(2):.1f}"}, "the limit of the planner"
 
 
-def test_searching_inverse_stops_less_than_1e_8_m_from_the_point():
+def test_inverse_that_searches_stops_less_than_1e_8_m_from_the_point():
     path = book.OURS / "visit_and_collect" / "inverse_programs.md"
     assert "stops less than 1e-8 m from the point" in path.read_text(encoding="utf-8")
     rng = np.random.default_rng(8)
@@ -113,7 +113,7 @@ def test_greatest_accelerations_of_both_corners_are_as_shown():
         assert float(told) == pytest.approx(abs(q @ weights).max(), abs=6e-5)
 
 
-def test_both_corners_round_paths_of_the_suggested_joints_class():
+def test_both_corners_can_blend_paths_of_the_suggested_joints_class():
     """Test the class suggested in the lab, with the line of code printed there."""
     (line,) = re.findall(r"returns `(Joints\(.*?)`, and round", flat("03", "deeper-own"))
 
@@ -181,7 +181,7 @@ def test_the_note_on_the_waiting_arm_has_the_time_at_which_it_waits():
 # --- Second round ---------------------------------------------------------------------------------
 
 
-def test_equal_links_dip_under_the_floor_from_a_tool_on_the_origin():
+def test_arm_with_equal_links_can_dip_under_the_floor_from_the_origin():
     text = (book.OURS / "visit_and_collect/predictions.md").read_text(encoding="utf-8")
     assert "for equal links with the tool on the origin" in text
     arm = spbu_arm(4, 4)
@@ -192,7 +192,7 @@ def test_equal_links_dip_under_the_floor_from_a_tool_on_the_origin():
     assert (abs(q) <= np.abs(arm.limits).max(axis=1) + 1e-9).all()
 
 
-def test_slow_motion_of_the_hit_has_a_twentieth_of_the_speed_except_in_the_hit():
+def test_greatest_speed_in_slow_motion_is_a_twentieth_except_in_the_hit():
     made = run_cells("06", "setup")
     text = next(each for each in cells("06").values() if "twenty times slower, so" in each)
     assert "for 1, 2 and 5 mm the greatest speed is a twentieth" in " ".join(text.split())

@@ -223,7 +223,7 @@ def places(arm, rng):
     n = SHARES["border"]
     borders = np.where(rng.random(n) < 0.5, upper + fore, abs(upper - fore))
     some["border"] = around(n, borders + beyond(rng, n) * arm.reach)
-    if lateral:  # some of them as near to axis 1 as the arm can come
+    if lateral:  # some of them as near to axis 1 as the arm can get
         turn, r = rng.uniform(-np.pi, np.pi, 400), abs(lateral) + beyond(rng, 400) * arm.reach
         some["border"][:400, :2] = np.stack([r * np.cos(turn), r * np.sin(turn)], axis=-1)
         some["border"][:400, 2] = height + rng.uniform(-0.9, 0.9, 400) * upper

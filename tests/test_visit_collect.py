@@ -298,8 +298,8 @@ def test_results_are_consistent(case):
 
 @pytest.mark.parametrize("k", [1e-5, 1, 1e5])
 def test_tolerance_scales_with_the_reach(k):
-    """Errata S0-l: a point past a border by less than 1e-12 of the reach counts as on it, at any
-    size.
+    """Errata S0-l: a point past a border by less than 1e-12 of the reach counts as lying on it, at
+    any size.
     """
     behind = np.sqrt(25 - 16)  # the height at which the inner border for l1 < l2 meets the axis
     for l1, l2, border, outward, condition in (
@@ -1262,7 +1262,7 @@ def test_speeds_that_are_probably_in_degrees_cause_a_warning():
         travel_time((0, -60, 0), (0, 0, 0), (1, 1, 1))
 
 
-def test_too_large_files_are_refused(tmp_path):
+def test_files_that_are_too_large_are_refused(tmp_path):
     path = tmp_path / "x.json"
     with path.open("wb") as file:
         file.truncate(40_000_001)
@@ -1435,7 +1435,7 @@ def test_results_of_other_tasks_are_refused(given):
     itinerary(make(), Result((1,), (5.0,), (0,)))
 
 
-def test_lowest_of_a_move_matches_that_of_its_reverse():
+def test_lowest_point_of_a_move_is_that_of_its_reverse():
     """No sample of the move is below its lowest point, whichever way the joints turn."""
     rng = np.random.default_rng(23)
     for l1, l2 in ((5, 4), (3, 1), (2, 2), (1, 3)):

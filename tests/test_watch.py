@@ -149,7 +149,7 @@ def test_reader_chooses_the_large_panel(page, motions, tmp_path):
     for large in range(3):
         menu.select_option(str(large))
         frames, words = anew(page)
-        heights = [h for _, _, _, h in frames][-3:]  # of the last picture, if there are two
+        heights = [h for _, _, _, h in frames][-3:]  # if there are two pictures, of the last
         assert len(heights) == 3 and np.argmax(heights) == large
         assert {"angle, °", "speed, °/s", "acceleration, °/s²"} <= set(words)
 
@@ -255,7 +255,7 @@ def test_row_of_every_posture_is_named(arm):
     assert [list(map(list, motion)) for motion in said] == [wanted]
 
 
-def test_row_stays_through_a_singularity_and_is_missing_without_an_inverse():
+def test_row_stays_the_same_through_a_singularity_and_is_missing_without_an_inverse():
     """Joint 5 crosses zero at sample 50: two rows coincide there, and the wrist's flag changes."""
     q = ptp([0.2, 0.1, 0.3, 0, -0.5, 0], [0.2, 0.1, 0.3, 0, 0.5, 0], np.linspace(0, 1, 101))
     [runs] = animate(IRB140, np.linspace(0, 1, 101), q).data["arms"][0]["rows"]

@@ -827,7 +827,7 @@ def test_every_public_callable_is_in_the_table():
             assert parameters <= called[name], f"{name}: {parameters - called[name]} missing"
 
 
-def test_detector_of_foreign_errors_works():
+def test_errors_that_are_not_ours_are_detected():
     # The detector must find planted errors.
     with np.errstate(all="warn"):
         for call, seen in (

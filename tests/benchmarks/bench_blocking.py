@@ -32,7 +32,7 @@ new PerformanceObserver(list => {
 
 
 def blocking(browser, page_file):
-    """Total blocking time of a page in ms."""
+    """The total blocking time of a page in ms."""
     context = browser.new_context(viewport={"width": 390, "height": 844})
     page = context.new_page()
     page.add_init_script(COUNT)

@@ -122,7 +122,7 @@ def save_for_a_while(path, seconds):
     try:
         text = edited(path, "COUNT")
     except FileNotFoundError:
-        return  # the lab was just being replaced
+        return  # the lab was being replaced at that moment
     while time.monotonic() < end:
         k += 1
         with atomic_writing(str(path)) as file:

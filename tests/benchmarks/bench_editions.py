@@ -24,7 +24,7 @@ import tarfile
 import tempfile
 from functools import partial
 from pathlib import Path
-from time import process_time  # time of our own process, so other load does not count
+from time import process_time  # CPU time of this process, whatever else runs
 
 for _library in ("OMP", "OPENBLAS", "MKL"):  # before NumPy starts its threads
     os.environ[f"{_library}_NUM_THREADS"] = "1"
@@ -65,7 +65,8 @@ def serve():
         print(min(spans) / int(count), flush=True)
 
 
-# Each function returns name -> the call to measure. Both the old and the new names are tried.
+# Each function returns a dict: name -> the call to measure. It tries both the old and the new
+# names.
 
 
 def kinematics():
@@ -321,10 +322,10 @@ def compare(folder, arguments):
 
 
 def imports(folder):
-    """Print the cost of the import relative to NumPy, with new processes in turn."""
+    """Print the cost of the import relative to NumPy's, in new processes that take turns."""
     timed = "import time; s = time.process_time(); import {}; print(time.process_time() - s)"
     spans = {"numpy": [], "old": [], "new": []}
-    # Keep byte code as on a student's machine, even if the environment forbids it.
+    # Write byte code, as on a student's machine, even if the environment forbids it.
     environment = {k: v for k, v in os.environ.items() if k != "PYTHONDONTWRITEBYTECODE"}
     with tempfile.TemporaryDirectory() as cache:
         environment |= {"PYTHONPYCACHEPREFIX": cache}
@@ -342,7 +343,8 @@ def imports(folder):
                     check=True,
                 )
                 spans[name].append(float(run.stdout))
-    numpy, old, new = (min(values[1:]) for values in spans.values())  # the first writes byte code
+    # the first run, which writes the byte code, does not count
+    numpy, old, new = (min(values[1:]) for values in spans.values())
     print(
         f"import: NumPy {numpy * 1e3:.1f} ms, old {old / numpy:.3f} times that, new "
         f"{new / numpy:.3f}{' *' if new / numpy > LIMIT_IMPORT else ''}"

@@ -1,4 +1,4 @@
-"""Compare explorers and the player's slider in a real browser with `interact` and a re-plot.
+"""Compare explorers and the player's slider with `interact` and a redrawn figure in a real browser.
 
     python tests/benchmarks/bench_explorers.py
 
@@ -82,9 +82,9 @@ def motion(x=650, fraction=0.1):
 interact(motion, x=(300, 900), fraction=(0, 0.5, 0.01));""",
 }
 
-# `painted` collects a time for every picture: of a canvas when it is cleared before drawing, of an
-# image when it is new and decoded. The time is taken in a later task, when the picture is on the
-# screen.
+# `painted` collects a time for every picture: for a canvas, when it is cleared before drawing; for
+# an image, when it is new and decoded. The time is taken in a later task, when the picture is on
+# the screen.
 WATCH = """cell => {
     window.painted = [];
     const soon = () => { const c = new MessageChannel();
@@ -106,8 +106,8 @@ WATCH = """cell => {
         handle.addEventListener('keydown', () => { window.key = performance.now(); }, true);
     handle.watched = true;
 }"""
-# The time from a move to the task after the frame that shows it. Moves in the same frame count
-# once, from the first.
+# The time from a move to the task after the frame that shows it. Several moves in one frame count
+# as one, timed from the first.
 PAINTS = """() => {
     window.paints = [];
     let since = Infinity, asked = false;
@@ -127,7 +127,7 @@ PAINTS = """() => {
 
 
 async def paced(send):
-    """60 moves at 60 a second."""
+    """Send 60 moves at a rate of 60 per second."""
     start, sent = time.perf_counter(), []
     for i in range(60):
         sent.append(asyncio.ensure_future(send(i)))
@@ -136,7 +136,7 @@ async def paced(send):
 
 
 async def dragged(page, target, touch=None, slider=False):
-    """The times to paint of the last of three drags of an element, ms."""
+    """The times in ms from a move to its paint, in the last of three drags of an element."""
     await page.evaluate(PAINTS)
     for _ in range(3):
         box = await page.locator(target).bounding_box()
@@ -176,7 +176,7 @@ def told(name, paints, slider):
 
 
 async def ours(path, folder):
-    """Median times to paint of the explorers; prints all."""
+    """Print all results; return the median time to paint of each explorer."""
     from playwright.async_api import async_playwright
 
     start = Transform(Quaternion.from_angle_axis(90 * deg, (-1, 0, 0)), (0.2, 0.4, 0.2))
@@ -232,7 +232,7 @@ async def ours(path, folder):
 
 
 def theirs(page, cell):
-    """Median time from a key press to the new image of `interact`, ms."""
+    """The median time in ms from a key press to the new image of `interact`."""
     cell.scroll_into_view_if_needed()
     page.wait_for_timeout(500)
     page.evaluate(WATCH, cell.element_handle())

@@ -15,7 +15,7 @@ TIMED = "import time; start = time.perf_counter(); import {}; print(time.perf_co
 
 
 def seconds(module, cache):
-    # Keep byte code as on a student's machine, even if the environment forbids it.
+    # Write byte code, as on a student's machine, even if the environment forbids it.
     environment = {k: v for k, v in os.environ.items() if k != "PYTHONDONTWRITEBYTECODE"}
     done = subprocess.run(
         [sys.executable, "-c", TIMED.format(module)],
@@ -29,7 +29,7 @@ def seconds(module, cache):
 
 def main():
     with tempfile.TemporaryDirectory() as cache:
-        seconds("numpy", cache), seconds("robokin", cache)  # writes the byte code
+        seconds("numpy", cache), seconds("robokin", cache)  # this run writes the byte code
         pairs = [(seconds("numpy", cache), seconds("robokin", cache)) for _ in range(RUNS)]
     numpy, robokin = (statistics.median(times) for times in zip(*pairs, strict=True))
     # the runs least disturbed by other load

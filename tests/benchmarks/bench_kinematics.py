@@ -178,7 +178,7 @@ def fk_case(arm, here):
         robot = opw_robot(arm, here)
         peers["opw batch_forward"] = lambda: robot.batch_forward(q)
         peers["opw batch_forward, compiled part"] = lambda: robot._robot.batch_forward(q)
-    # its IRB-140 is a different one, with an upper arm of 360 mm
+    # its IRB-140 is a different model, with an upper arm of 360 mm
     if "roboticstoolbox" in here and arm is PUMA560:
         robot2 = here["roboticstoolbox"].models.DH.Puma560()
         chain = robot2.ets()

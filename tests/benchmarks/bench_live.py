@@ -1,4 +1,4 @@
-"""Compare explorers that ask a kernel with `interact` and a re-plot of the same content.
+"""Compare explorers that ask a kernel with `interact`, which redraws a figure of the same content.
 
     python tests/benchmarks/bench_live.py
 
@@ -168,7 +168,7 @@ DRAGS = """(node, count) => new Promise(done => {
 
 
 def ours(page, root, handle):
-    """Times from a move to its paint during the second of two drags, ms."""
+    """The times in ms from a move to its paint, in the second of two drags."""
     root.evaluate(PAINTS)
     box = root.locator(f"[data-handle={handle}]").bounding_box()
     x, y = box["x"] + box["width"] / 2, box["y"] + box["height"] / 2
@@ -188,7 +188,7 @@ def ours(page, root, handle):
 
 
 def theirs_dragged(page, cell):
-    """Times from a move to its paint for 60 moves of the slider of `interact`, ms."""
+    """The times in ms from a move to its paint, for 60 moves of the slider of `interact`."""
     cell.scroll_into_view_if_needed()
     page.wait_for_timeout(500)
     cell.evaluate(THEIR_PAINTS)
@@ -208,7 +208,7 @@ def theirs_dragged(page, cell):
 
 
 def pressed(page, root, handle):
-    """Median time from one key press to the paint of its answer, ms."""
+    """The median time in ms from a key press to the paint of its answer."""
     page.evaluate("window.paints.length = 0")
     for i in range(13):
         root.locator(f"[data-handle={handle}]").press("ArrowRight" if i % 2 else "ArrowLeft")

@@ -1,10 +1,12 @@
-"""Measure the time and size of reports of the solved labs 01 to 12, and a summary of 30 notebooks.
+"""Measure the time and size of the reports on the solved labs 01 to 12, and the time of a summary
+of 30 notebooks.
 
     python tests/benchmarks/bench_reports.py [SLUG ...]
 
-Every exercise is answered with its solution and every prediction with its first option, under an
-individual name. Then `report` judges the lab again, and `summary` reads all reports. Aims: every
-exercise passes, no remarks, and a report at most 500 kB larger than the lab with its new outputs.
+Every exercise is answered with its solution and every prediction with its first option, under a
+name other than the default. Then `report` judges the lab again, and `summary` reads all reports.
+Aims: every exercise passes, no remarks, and a report at most 500 kB larger than the lab with its
+new outputs.
 
 Then `summary` judges 30 solved notebooks: one after another, in parallel, and in parallel while two
 busy loops run. Aims: the same verdicts, and in parallel on two idle cores at most 0.6 of the time.

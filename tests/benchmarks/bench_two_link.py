@@ -74,7 +74,7 @@ def main():
 
 
 def each(call):
-    """A function that makes the call for each row, one after another."""
+    """A function that makes the call for one row after another."""
     return lambda rows: [call(*row) for row in rows]
 
 

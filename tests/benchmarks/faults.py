@@ -7,8 +7,8 @@ notice until one of them fails. (`mutants.py` does this for the rest of the pack
 
 White space, a comma before a closing bracket and parentheses around a single arrow parameter are
 ignored in `old`, so that faults survive a formatter. A test that has failed runs again without the
-fault and must pass; a run that takes too long counts as noticed. `--after` begins with the test
-that noticed the fault last time, even if it has moved. Exit status 1: a fault was not noticed.
+fault and must pass; a fault whose run takes too long counts as noticed. `--after` begins with the
+test that noticed the fault last time, even if it has moved. Exit status 1: a fault was not noticed.
 """
 
 import argparse
@@ -41,11 +41,11 @@ def main():
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("--only", default="", help="only faults whose file or text contains this")
     parser.add_argument(
-        "--check", action="store_true", help="only test whether each fault can be inserted"
+        "--check", action="store_true", help="only check whether each fault can be inserted"
     )
     parser.add_argument("--repo", type=Path, default=HERE.parents[1], help="the repository to test")
     parser.add_argument(
-        "--results", type=Path, default=os.devnull, help="file for a line per fault"
+        "--results", type=Path, default=os.devnull, help="write a line for each fault to this file"
     )
     parser.add_argument("--after", type=Path, help="the results of an earlier run")
     given = parser.parse_args()

@@ -37,7 +37,7 @@ def check(arm, q, label, tolerance):
     print(
         f"{arm.name:14s} {label:28s} {len(q):8d} poses, {exists.sum():8d} rows: drawn row "
         f"missing {missing}, "
-        f"half rows {half}, rows other than expected {(exists != wanted).sum()}, "
+        f"rows partly NaN {half}, rows other than expected {(exists != wanted).sum()}, "
         f"worst position error {np.nanmax(position):.1e} of the reach, angle "
         f"{np.nanmax(angle):.1e} rad"
     )

@@ -37,7 +37,7 @@ from robokin.jobs.obstacles import clearance, plan, via_path
 
 
 def verdict(path, H):
-    """A description of the document's path: out of reach, or by its least clearance."""
+    """Describe the document's path by its least clearance, or as out of reach."""
     if np.isnan(path).any():
         return "via points out of reach"
     least = clearance(ARM, path, H).min()
