@@ -27,9 +27,9 @@ from robokin import (
     three_lever,
     two_link,
 )
+from robokin.arms.explanations import SENTENCES
 from robokin.arms.geometry import Gap, distance, two_levers
 from robokin.arms.spherical_wrist import SphericalWristGeometry
-from robokin.arms.verdicts import SENTENCES
 from robokin.units import in_words, length_unit, wrapped
 
 TURN = 2 * np.pi

@@ -66,10 +66,10 @@ def test_answer_and_drawing_match_the_plan():
         if known.found:
             near = distances(ARM, moments, question["obstacle"])
             assert near.min() >= question["distance"] - 1e-6
-            assert f"S = {known.cost / deg:.0f}°" in said["verdict"]
-            assert f"{known.clearance.min() * 1000:.1f} mm" in said["verdict"]
+            assert f"S = {known.cost / deg:.0f}°" in said["result"]
+            assert f"{known.clearance.min() * 1000:.1f} mm" in said["result"]
         else:
-            assert said["verdict"] == "No: the arm does not move."
+            assert said["result"] == "No: the arm does not move."
         ways.add(known.way)
     assert {"direct", "search", "none"} <= ways
 
@@ -88,11 +88,11 @@ def test_unchecked_paths_are_judged_by_lever_clearance():
             else:
                 path = np.stack([posture, ARM.least(target, posture)[0]])
             if np.isnan(path).any():
-                assert not said["kept"] and "reach" in said["verdict"]
+                assert not said["kept"] and "reach" in said["result"]
                 continue
             np.testing.assert_allclose(said["path"], path)
             kept = bool(keeps(ARM, path[:-1], path[1:], H, wanted).all())
-            assert said["kept"] == kept == ("not safe" not in said["verdict"])
+            assert said["kept"] == kept == ("not safe" not in said["result"])
             seen.add((way, kept))
     assert seen == {(1, True), (1, False), (2, True), (2, False)}
 
@@ -196,7 +196,7 @@ def test_live_view_wakes_after_run_all_and_shows_the_last_position(jupyter, quie
     jupyter.open(quiet, NAME)
     jupyter.run_all(quiet, NAME)
     awake(quiet)
-    before = quiet.locator(".rk-verdict").inner_text()
+    before = quiet.locator(".rk-result").inner_text()
     ways = set()
     for name, way in (("H", (60, 20)), ("K", (-70, 50)), ("K1", (-90, -20)), ("H", (-150, 60))):
         x, y = middle(quiet, name)
@@ -205,7 +205,7 @@ def test_live_view_wakes_after_run_all_and_shows_the_last_position(jupyter, quie
         quiet.mouse.move(x + way[0], y + way[1], steps=12)
         quiet.mouse.up()
         ways.add(shows_what_python_says(quiet))
-    assert quiet.locator(".rk-verdict").inner_text() != before and len(ways) > 1
+    assert quiet.locator(".rk-result").inner_text() != before and len(ways) > 1
     quiet.locator("[data-handle=K1]").press("Shift+ArrowUp")
     quiet.get_by_role("slider", name="distance, mm", exact=True).press("ArrowRight")
     shows_what_python_says(quiet)
@@ -228,7 +228,7 @@ def test_live_view_wakes_after_run_all_and_shows_the_last_position(jupyter, quie
     awake(quiet)
     quiet.locator("[data-handle=H]").press("Shift+ArrowUp")
     shows_what_python_says(quiet)
-    seen = quiet.locator(".rk-verdict").inner_text()
+    seen = quiet.locator(".rk-result").inner_text()
 
     # The notebook is saved and opened again without that kernel.
     quiet.locator(".jp-CodeCell .cm-content").first.click()
@@ -239,7 +239,7 @@ def test_live_view_wakes_after_run_all_and_shows_the_last_position(jupyter, quie
     quiet.locator(".rk canvas").first.wait_for()
     quiet.get_by_text("| Idle").first.wait_for()
     asleep(quiet)
-    assert quiet.locator(".rk-verdict").inner_text() != seen, (
+    assert quiet.locator(".rk-result").inner_text() != seen, (
         "the last picture was stored, not that of the run"
     )
     assert quiet.get_by_text("Error displaying widget").count() == 0
@@ -288,7 +288,7 @@ def shows_what_python_says(tab):
     """Wait until all questions are answered, check the text and numbers for the last one, and
     return the `way` of its plan.
     """
-    still = "e => [e.dataset.asked, e.dataset.answered, e.querySelector('.rk-verdict').textContent]"
+    still = "e => [e.dataset.asked, e.dataset.answered, e.querySelector('.rk-result').textContent]"
     seen = [None]
 
     def rests():
@@ -304,7 +304,7 @@ def shows_what_python_says(tab):
     exec(lines, space)
     known = space["known"]
     assert tab.locator(".rk-says").inner_text() == known.words
-    verdict = tab.locator(".rk-verdict").inner_text()
+    verdict = tab.locator(".rk-result").inner_text()
     if known.found:
         S, near = re.search(r"S = (\d+)° .*lever .*?([\d.]+) mm\.$", verdict).groups()
         assert f"{known.cost / deg:.0f}" == S

@@ -97,7 +97,7 @@ def test_every_option_can_be_chosen_and_gets_a_reply(opened, k, width):
     page = opened(asked, width)
     before = seen(page)
     assert "It is 6.2 now." in before and "twice as much" in before
-    for hidden in ("view opens", REASON, "Not so", "in proportion", "99"):
+    for hidden in ("view opens", REASON, "No: ", "in proportion", "99"):
         assert hidden not in before, "something is shown before the choice"
     assert guess(page).is_disabled()
     page.get_by_label(f"{'abc'[k]})").check()
@@ -108,10 +108,10 @@ def test_every_option_can_be_chosen_and_gets_a_reply(opened, k, width):
     option = asked.options[k]
     assert option.reason in after and "Kept in this browser only." in after
     assert "predict(" not in after, "no advice to edit a folded cell"
-    assert ("Not so" in after) == (k != 1) and ("Right." in after) == (k == 1)
+    assert ("No: " in after) == (k != 1) and ("Right." in after) == (k == 1)
     if k != 1:
         assert option.confusion in after and option.second in after
-        assert "Right is b) twice as much." in after
+        assert "The right answer is b) twice as much." in after
     rows = page.locator(".rk-option").all_inner_texts()
     assert [("right" in row, "your guess" in row) for row in rows] == [
         (i == 1, i == k) for i in range(3)
@@ -125,14 +125,14 @@ def test_questions_can_be_answered_by_keyboard_alone(opened):
     page.keyboard.press("ArrowDown")
     page.keyboard.press("ArrowDown")
     page.keyboard.press("Enter")
-    assert "Not so: in proportion." in seen(page)
+    assert "No: in proportion." in seen(page)
     assert page.evaluate("document.activeElement.textContent") == "Ask me again"
     page.keyboard.press("Enter")
     assert "view opens" not in seen(page) and guess(page).is_disabled()
     page.keyboard.press("Space")
     page.keyboard.press("Tab")
     page.keyboard.press("Enter")
-    assert "Not so: distance does not matter." in seen(page)
+    assert "No: distance does not matter." in seen(page)
 
 
 @pytest.mark.parametrize(
@@ -140,10 +140,10 @@ def test_questions_can_be_answered_by_keyboard_alone(opened):
     [
         ("200", "Right. Twice the radius."),
         ("191", "Right."),
-        ("98", "Not so: radius for diameter."),
-        ("640", "Not so: way round."),
-        ("-5", "Not so."),
-        ("0", "Right is 200 mm."),
+        ("98", "No: radius for diameter."),
+        ("640", "No: way round."),
+        ("-5", "No."),
+        ("0", "The right answer is 200 mm."),
     ],
 )
 def test_page_and_notebook_judge_numbers_alike(opened, typed, says):
@@ -163,7 +163,7 @@ def test_page_remembers_and_forgets_choices(opened, browser):
     guess(page).click()
     assert "You guessed here before" not in seen(page)
     again = opened(asked, within=context)
-    assert "Not so: in proportion." in seen(again) and "view opens" in seen(again)
+    assert "No: in proportion." in seen(again) and "view opens" in seen(again)
     assert "You guessed here before. Kept in this browser only." in seen(again)
     again.get_by_role("button", name="Ask me again").click()
     again.get_by_label("b)").check()
@@ -201,8 +201,8 @@ def test_question_can_occur_twice_in_a_page(opened):
     other.get_by_label("c)").check()
     assert one.get_by_label("a)").is_checked() and other.get_by_label("c)").is_checked()
     guess(one).click()
-    assert "Not so: distance does not matter." in one.inner_text()
-    assert "Not so" not in other.inner_text() and other.get_by_label("c)").is_checked()
+    assert "No: distance does not matter." in one.inner_text()
+    assert "No: " not in other.inner_text() and other.get_by_label("c)").is_checked()
 
 
 def test_choice_in_the_notebook_opens_the_view_at_once(opened):
@@ -269,7 +269,7 @@ def test_answer_opens_without_a_guess_and_a_guess_may_follow(opened, asked):
     else:
         page.get_by_label("your guess").fill("100")
     guess(page).click()
-    assert seen(page).count(right.reason) == 1 and "Not so" in seen(page)
+    assert seen(page).count(right.reason) == 1 and "No: " in seen(page)
     assert not page.get_by_text(UNGUESSED).is_visible()
     assert page.locator(".rk-scene").count() == (asked.unit is None), "the view has moved"
     page.get_by_role("button", name="Ask me again").click()

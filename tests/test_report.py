@@ -19,7 +19,7 @@ from robokin.course import book, solution
 from robokin.course.__main__ import main
 from robokin.course.handed_in import handed_in
 from robokin.course.judge import Judged, Limits, Result, guesses
-from robokin.course.report_page import objectives, page_of, report, safe, told
+from robokin.course.report_page import objectives, page_of, portable, report, told
 from robokin.course.reported import STATES, report_data
 
 QUICK = Limits(cell=12, all=100)
@@ -198,7 +198,7 @@ def test_report_is_only_a_little_larger_than_the_lab():
     ],
 )
 def test_a_name_becomes_part_of_a_file_name(name, kept):
-    assert safe(name) == kept
+    assert portable(name) == kept
 
 
 def test_other_files_are_not_overwritten(tmp_path, monkeypatch, capsys):

@@ -13,8 +13,8 @@ from .._validate import broadcast, floats, instance, warn_if_degrees, whole
 from ..transform import Transform
 from ..units import deg, mm, wrapped
 from .arm import Arm, ClosedFormArm
+from .explanations import SENTENCES
 from .scara import ScaraPose
-from .verdicts import SENTENCES
 
 TURN = 2 * np.pi
 SLACK = 1e-9  # a joint past its limit by no more than this counts as being at it
@@ -130,7 +130,7 @@ def explain(arm: ClosedFormArm, pose: Any, row: int) -> str:
 
     For a pose out of reach it says by how much, and whether the lengths may be in millimetres.
     Otherwise it names every joint past its limit, with the excess, and every singularity of the
-    posture. The sentences are those of `verdicts.SENTENCES`.
+    posture. The sentences are those of `explanations.SENTENCES`.
 
     >>> from robokin import SCARA, ScaraPose, explain
     >>> explain(SCARA, ScaraPose((0.46, 0, 0.1), 0), 0)

@@ -17,8 +17,8 @@ from .._arrays import Bools, Floats, Ints, Sealed
 from .._validate import floats
 from ..transform import Transform
 from ..units import in_words
+from .explanations import SENTENCES
 from .link import Link
-from .verdicts import SENTENCES
 
 ROUNDING = 1e-12  # a point past a border by no more than this counts as on it
 STRAIGHT = 1e-14  # an arm this close to being stretched or folded has two equal elbow rows
@@ -52,7 +52,7 @@ class ClosedForm(Geometry, Protocol):
     branches   (rows, flags) of +-1, read-only: the configuration of each row
     carried    the point that the first joints position: "wrist centre", "point", ...
 
-    The names that `gap` and `singularities` return are keys of `verdicts.SENTENCES`.
+    The names that `gap` and `singularities` return are keys of `explanations.SENTENCES`.
     `show/js/geometries.js` has the same inverse for pages.
     """
 
@@ -108,7 +108,7 @@ class Chain(Sealed):
 class Gap(NamedTuple):
     """The reason why a row does not exist: the border that the target is beyond, and by how much.
 
-    kind     the key of a sentence in `verdicts.SENTENCES`
+    kind     the key of a sentence in `explanations.SENTENCES`
     metres   how far the target is beyond the border; 0 where the reason is not a length
     what     the point to be positioned: "the wrist centre", "the target"
     degrees  the tilt of the tool, where that is the reason

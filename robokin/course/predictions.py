@@ -139,9 +139,7 @@ class Asked:
                 lines.append(f"Right. {right.reason}")
             else:
                 mine = self.options[self.at]
-                lines.append(
-                    f"Not so: {mine.confusion}. {mine.reason}" if self.at >= 0 else "Not so."
-                )
+                lines.append(f"No: {mine.confusion}. {mine.reason}" if self.at >= 0 else "No.")
                 lines.append(self._right())
         return "\n".join(lines)
 
@@ -151,7 +149,7 @@ class Asked:
         letter = "" if self.unit else f"{LETTERS[self.right]}) "
         text = right.text if self.unit is None else with_unit(right.text, self.unit)
         end = "" if text.endswith((".", "!", "?")) else "."
-        return f"Right is {letter}{text}{end} {right.reason}"
+        return f"The right answer is {letter}{text}{end} {right.reason}"
 
 
 def with_unit(text: str, unit: str) -> str:

@@ -76,7 +76,7 @@ def report(path: Path, who: str, folder: Path, limits: Limits = LIMITS) -> Path:
     if not who.strip():
         raise ValueError(f"name: wanted a name, got {who!r}")
     handed = handed_in(path)
-    to = folder / f"{safe(path.stem)}_{safe(who)}.html"
+    to = folder / f"{portable(path.stem)}_{portable(who)}.html"
     _refuse_to_overwrite(to, handed, who)
     judged = judge_notebook(handed, who, limits)
     write_page(to, page_of(told(handed, who, judged), judged.notebook, path.parent))
@@ -132,8 +132,8 @@ def page_of(data: dict[str, Any], notebook: Any, folder: Path) -> str:
     return page(cells, _title(data), view.nonce, header)
 
 
-def safe(text: str) -> str:
-    """Make text safe for file names on any system; keep letters of all scripts, digits and -."""
+def portable(text: str) -> str:
+    """Make text fit for file names on any system; keep letters of all scripts, digits and -."""
     text = unicodedata.normalize("NFC", text)
     kept = "".join(c if c == "-" or unicodedata.category(c)[0] in "LMN" else "_" for c in text)
     short = re.sub("_+", "_", kept).encode(errors="ignore")[:100].decode(errors="ignore")

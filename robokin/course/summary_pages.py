@@ -25,7 +25,7 @@ from ..show.palette import ALARM, AXIS_COLORS, PAGE
 from ..show.saving import write_page
 from .book import find, lab, labs, titled
 from .predictions import chosen, worked_out
-from .report_page import exercise_title, safe
+from .report_page import exercise_title, portable
 from .reported import counted
 from .summary import Entry, Summary
 from .variants import normalised
@@ -262,7 +262,7 @@ def write(made: Summary, folder: Path, points: bool = True) -> tuple[Path, Path]
         pages.mkdir(exist_ok=True)
     names: dict[str, str] = {}  # in lower case, since a file system may ignore case
     for entry in made.entries:
-        path = _free(pages, f"{entry.lab}_{safe(entry.who)}", names)
+        path = _free(pages, f"{entry.lab}_{portable(entry.who)}", names)
         write_page(path, sheet(entry, points))
         names[path.name.casefold()] = path.name
     write_page(page, page_of(made, [f"{PAGES}/{name}" for name in names.values()], points))

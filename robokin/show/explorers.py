@@ -1,9 +1,9 @@
 """Explorers: an arm on a page, which the reader can move without a kernel.
 
 In `joint_explorer` the reader turns joints; in `target_explorer` the reader moves a target and sees
-every branch of `ik` with its verdict. The page computes with the scripts in `js/`; `twin.py`
-prepares the data of the arm. The reasons why a row of `ik` does not exist or cannot be used are in
-`arms/verdicts.py`, all other text is in `explorer.WORDS`.
+every branch of `ik` and which of them are usable. The page computes with the scripts in `js/`;
+`twin.py` prepares the data of the arm. The reasons why a row of `ik` cannot be used are in
+`arms/explanations.py`, all other text is in `explorer.WORDS`.
 """
 
 import numpy as np
@@ -153,10 +153,10 @@ def target_explorer(arm: ClosedFormArm | ThreeLeverArm) -> "Explorer":
         )
     )
     count = int(usable.sum())
-    verdict = WORDS["oneUsable" if count == 1 else "someUsable"].format(
+    usable_rows = WORDS["oneUsable" if count == 1 else "someUsable"].format(
         count=count, all=len(rows), why=explain(arm, target, row)
     )
-    summary = f"{arm.name} and a target to be moved, at {values}. {verdict}"
+    summary = f"{arm.name} and a target to be moved, at {values}. {usable_rows}"
     shown = rows[np.isfinite(rows).all(axis=-1)]
     turning = np.flatnonzero(~arm.prismatic)
     whole = len(turning) == len(arm.links)

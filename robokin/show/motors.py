@@ -148,7 +148,7 @@ class MotorNumbers(TypedDict):
 
 
 class MotorRules(TypedDict):
-    """The constants of jobs/steppers/rotor.py for the simulation and its verdict."""
+    """The constants of jobs/steppers/rotor.py for the simulation and its result."""
 
     fine: list[float]
     settled: float

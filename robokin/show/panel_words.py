@@ -11,7 +11,7 @@ from .scene import number
 PER = {"q": "", "v": "/s", "a": "/s²"}
 
 
-def verdict(recording: Recording, kind: str, joints: Ints, past: Bools) -> list[str]:
+def about_limits(recording: Recording, kind: str, joints: Ints, past: Bools) -> list[str]:
     """Say how many samples of each joint are past a limit. If none is, say so or, for speeds, what
     percentage of the speed limit is reached.
     """

@@ -21,13 +21,13 @@ from ..motion.recording import Jump, Recording
 from .palette import ALARM, INK, JOINT_STYLES, PANEL_GRID, REMARK, SOFT
 from .panel_words import (
     PER,
+    about_limits,
     beside_jump,
     corner_words,
     leap_words,
     range_words,
     space,
     spike_words,
-    verdict,
 )
 from .scene import dense, number
 
@@ -116,7 +116,7 @@ def draw_panel(
                 t, marked, color=ALARM, linewidth=7, alpha=0.3, solid_capstyle="butt", zorder=1.5
             )
     said = [
-        *verdict(recording, kind, joints, past),
+        *about_limits(recording, kind, joints, past),
         *leap_words(recording, kind, joints, unit, size),
         *spike_words(recording, kind, joints, spikes, values, unit),
         *corner_words(recording, kind, joints, unit, size, np.isnan(values)),

@@ -85,7 +85,7 @@ def plan_explorer(
         "sides": False,
     }
     answer = _answer(arm, first)
-    summary = f"{arm.name}, a target and an obstacle to be moved. {known.words} {answer['verdict']}"
+    summary = f"{arm.name}, a target and an obstacle to be moved. {known.words} {answer['result']}"
     return Live(
         dict(_page(arm, first, known, summary)),
         _picture(arm, first, answer, summary),
@@ -100,7 +100,7 @@ def plan_explorer(
 def _answer(arm: ThreeLeverArm, question: Question) -> Answer:
     """Return the answer that the page shows.
 
-    verdict, words  the answer in a sentence; the reason, in the words of `plan`
+    result, words   the result in a sentence; the reason, in the words of `plan`
     way, kept       `way` of the plan; whether the path shown keeps the distance
     path            (k, 3) postures; only the start if the arm does not move
     moments         (MOMENTS, 3) postures along the path; the start twice if the arm does not move
@@ -119,11 +119,11 @@ def _answer(arm: ThreeLeverArm, question: Question) -> Answer:
         path = unchecked_path(arm, UNCHECKED[way], start, K1, H, distance)
         each = clearance(arm, path, H) if len(path) > 1 else each[:0]
     lever, near, place = nearest_approach(arm, path, each, H)
-    verdict, kept = _verdict(known, way, path, lever, near, distance)
+    result, kept = _result(known, way, path, lever, near, distance)
     by_points = way == WAYS[1] or (way == WAYS[0] and known.way == "via points")
     cube, most, curve = _cube(arm, start, K1, H, distance)
     return {
-        "verdict": verdict,
+        "result": result,
         "words": known.words,
         "way": known.way,
         "kept": kept,
@@ -144,10 +144,10 @@ def _moments(path: Floats) -> Floats:
     return along(path, np.linspace(0, 1, MOMENTS))
 
 
-def _verdict(
+def _result(
     known: Plan, way: str, path: Floats, lever: int, near: float, distance: float
 ) -> tuple[str, bool]:
-    """The verdict in one sentence, and whether the distance is kept."""
+    """The result in one sentence, and whether the distance is kept."""
     if len(path) == 1:
         out = "K1 is out of reach" if way == "direct" else "K2, K3 and K1 are not all within reach"
         return ("No: the arm does not move." if way == WAYS[0] else f"No: {out}."), False

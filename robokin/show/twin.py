@@ -15,12 +15,12 @@ from ..arms import branches, geometry
 from ..arms.arm import Arm, ClosedFormArm
 from ..arms.dexterity import movable
 from ..arms.elbow import ElbowGeometry
+from ..arms.explanations import SENTENCES
 from ..arms.link import Link
 from ..arms.planar import ThreeLeverGeometry
 from ..arms.scara import ScaraGeometry, ScaraPose
 from ..arms.spherical_wrist import FREE, NOISY, SphericalWristGeometry
 from ..arms.two_link import TwoLinkGeometry
-from ..arms.verdicts import SENTENCES
 from ..transform import Transform
 from ..units import deg, mm
 

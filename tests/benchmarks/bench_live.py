@@ -55,7 +55,7 @@ def planned(x=1.2, y=1.3):
         plane.plot(*points.T, color="C0", lw=0.5)
     plane.plot(*arm.points(start).T, color="k", lw=4, marker="o")
     plane.add_patch(plt.Circle((x, y), 1 / 7, color="0.8"))
-    plane.set(aspect="equal", title=said["verdict"])
+    plane.set(aspect="equal", title=said["result"])
     cube.voxels(said["cube"] == 255, facecolors="0.7")
     cube.scatter(*np.argwhere(said["cube"] == said["most"]).T, s=4)
     cube.plot(*(said["moments"] / (12 * deg)).T, lw=2)

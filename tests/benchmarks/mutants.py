@@ -55,7 +55,7 @@ TESTS = {
     "robokin/arms/arm.py": ["arm", "geometry", "branches", "oracle_irb140"],
     "robokin/arms/link.py": ["arm", "geometry", "spherical_wrist", "oracle_irb140"],
     "robokin/arms/geometry.py": ["geometry", "elbow", "two_link", "scara", "branches"],
-    "robokin/arms/verdicts.py": ["branches", "elbow", "scara", "two_link"],
+    "robokin/arms/explanations.py": ["branches", "elbow", "scara", "two_link"],
     "robokin/arms/branches.py": ["branches", "spherical_wrist", "elbow", "scara", "geometry"],
     "robokin/arms/catalogue.py": ["arm", "geometry", "oracle_irb140", "loader", "elbow", "scara"],
     "robokin/arms/dexterity.py": ["dexterity", "arm"],

@@ -1,4 +1,4 @@
-// Fills the blanks of the sentences from verdicts.py and explorer.py with numbers in Python's
+// Fills the blanks of the sentences from explanations.py and explorer.py with numbers in Python's
 // format.
 
 import {rint} from "./kinematics.js";

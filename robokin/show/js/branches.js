@@ -1,4 +1,4 @@
-// The choice among the rows of `ik`, and sentences about them, as in branches.py and verdicts.py.
+// The choice among the rows of `ik`, and sentences about them, as in branches.py and explanations.py.
 
 import {TURN, wrapped} from "./kinematics.js";
 import {exists, leastTravel} from "./rows.js";

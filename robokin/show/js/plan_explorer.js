@@ -37,7 +37,7 @@ import {point} from "./mark.js";
 /**
  * Python's answer: see `_answer` in plan_explorer.py.
  * @typedef {object} Answer
- * @property {string} verdict
+ * @property {string} result
  * @property {string} words
  * @property {boolean} kept
  * @property {Values} moments
@@ -86,17 +86,17 @@ function planExplorer(stage, root, id, data) {
   const now = {shown, wave: shown.most, moment: 0, playing: false, before: 0};
   let asked = JSON.stringify(first);
   const inputs = inputsOf(stage, data, state),
-    verdict = element("p", {class: "rk-verdict"});
+    result = element("p", {class: "rk-result"});
   const cube = cubeView(says.cube, stage.changed),
     times = timesOf(stage, data, now, cube.canvas);
-  stage.title.after(verdict);
+  stage.title.after(result);
   stage.below.append(stage.says);
   stage.handles.set(marks(data, state));
 
   function tell() {
     times.reach();
-    verdict.textContent = now.shown.verdict;
-    verdict.classList.toggle("rk-past", !now.shown.kept);
+    result.textContent = now.shown.result;
+    result.classList.toggle("rk-past", !now.shown.kept);
     stage.changed();
   }
   tell();

@@ -251,14 +251,11 @@ function told(data, at, right) {
   if (at === data.right) return [`Right. ${right.reason}`];
   const own =
     at < 0
-      ? ["Not so."]
-      : [
-          `Not so: ${data.options[at].confusion}. ${data.options[at].reason}`,
-          data.options[at].second,
-        ];
+      ? ["No."]
+      : [`No: ${data.options[at].confusion}. ${data.options[at].reason}`, data.options[at].second];
   return [
     ...own,
-    `Right is ${letter}${text}${/[.!?]$/.test(text) ? "" : "."} ${right.reason}`,
+    `The right answer is ${letter}${text}${/[.!?]$/.test(text) ? "" : "."} ${right.reason}`,
   ].filter(text => text);
 }
 

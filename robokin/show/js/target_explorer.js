@@ -163,7 +163,7 @@ function foundAt({arm, turning}, state) {
  */
 const cells = ({arm, words, units}, {rows, exists, inside, travel}) =>
   rows.map((q, k) => [
-    verdict(arm, words, q, inside[k], exists[k]),
+    aboutRow(arm, words, q, inside[k], exists[k]),
     ...q.map((x, j) =>
       exists[k] ? {text: number(x / units[j].size, 1), past: !inside[k][j]} : words.none,
     ),
@@ -188,7 +188,7 @@ function markTarget({scene}, {rotation, place}, name) {
  * @param {boolean[]} inside  for each joint, whether it is inside its limits
  * @param {boolean} exists
  */
-function verdict(arm, words, q, inside, exists) {
+function aboutRow(arm, words, q, inside, exists) {
   if (!exists) return words.missingRow;
   const past = inside.flatMap((good, j) => (good ? [] : [`q${j + 1}`]));
   if (past.length) return fill(words.past, {joints: past.join(", ")});

@@ -1,5 +1,4 @@
-"""The sentences of a verdict: all that `explain` (in `branches`) can say, kept here so that a page
-can use them too.
+"""All that `explain` (in `branches`) can say, kept here so that a page can use it too.
 
 The facts are in braces: {what} is the point to be positioned, {gap} is a length with its unit,
 {degrees} an angle; then {row}, {flags}, {reason}, {hint}, {facts}, {joint}, {value}, {over} and
@@ -7,7 +6,7 @@ The facts are in braces: {what} is the point to be positioned, {gap} is a length
 """
 
 SENTENCES = {
-    # a whole verdict
+    # a whole sentence
     "missing": "Row {row} ({flags}) does not exist: {reason}{hint}",
     "usable": "Row {row} ({flags}) is usable: it is inside every limit and not singular.",
     "usable but": "Row {row} ({flags}) is usable, but {facts}.",
