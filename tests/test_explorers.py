@@ -119,6 +119,7 @@ READ = """async rk => {
     code: window.copied, boxes: named("input[type=number]", e => +e.value),
     told: named("input[type=range]", e => plain(e.getAttribute("aria-valuetext"))),
     menus: named("select", e => e.selectedIndex), says: rk.querySelector(".rk-says").textContent,
+    count: rk.querySelector(".rk-count")?.textContent, scene: rk.querySelector("canvas").ariaLabel,
     rows: rows.map(row => [...row.cells].map(cell => plain(cell.textContent))),
     past: rows.map(row => [...row.cells].map(cell => cell.classList.contains("rk-past"))),
     faint: rows.map(row => row.classList.contains("rk-none")),
@@ -372,6 +373,8 @@ def shows_every_branch(shown, exact=True):
         assert float(seen.rows[k][2 + n]) == pytest.approx(
             near[k], abs=0.00051 if exists.all() and exact else 0.002
         )
+    assert seen.count == f"{usable.sum()} of {len(usable)} usable"
+    assert seen.scene.startswith(f"{arm.name} and a target") and seen.says in seen.scene
     chosen, wanted = seen.chosen, seen.menus["branch"] - 1
     assert chosen == seen.pressed
     if wanted >= 0:
@@ -440,6 +443,23 @@ def test_target_explorer_lists_every_branch(opened, arm):
         if now.seen.chosen >= 0:
             last = now
     assert {"none", "usable"} <= kinds and len(pixels) > 8
+
+
+def test_target_explorer_opens_at_a_given_pose(opened):
+    """It opens on a usable branch if there is one, and counts while the target is moved by keys."""
+    level = Quaternion.from_angle_axis(90 * deg, (0, 1, 0))
+    for place, count in (((550, 0, 800), 3), ((-500, 0, 700), 0), ((550, 600, 800), 8)):
+        target = Transform(level, np.array(place) * mm)
+        explorer = target_explorer(PUMA560, target)
+        shown = opened(explorer, PUMA560)
+        first = shows_every_branch(shown)
+        assert first.usable.sum() == count and explorer.data["alt"] in first.seen.scene
+        assert (first.usable if count else first.exists)[first.seen.chosen]
+        assert np.allclose(first.target.as_matrix(), target.as_matrix(), rtol=0, atol=1e-9)
+    shown.press("y", *["Shift+ArrowDown"] * 9)
+    assert shows_every_branch(shown).usable.sum() < 8
+    shown.press("y", "Home")
+    assert shows_every_branch(shown).usable.sum() == 8
 
 
 def test_chosen_branch_is_kept_and_its_gap_is_explained(opened):
@@ -1444,6 +1464,15 @@ def test_errors_for_wrong_calls_name_what_is_wanted():
         (lambda: joint_explorer(IRB140, np.zeros((2, 6))), ValueError, "q: wanted one posture"),
         (lambda: target_explorer(3), TypeError, "arm: wanted a ClosedFormArm"),
         (lambda: target_explorer(unknown), TypeError, "arm: Unknown has no inverse for pages"),
+        (lambda: target_explorer(IRB140, (1, 2, 3)), TypeError, "target: wanted a Transform"),
+        (lambda: target_explorer(SCARA, VIA), TypeError, "target: wanted a ScaraPose"),
+        (lambda: target_explorer(IRB140, two), ValueError, "target: wanted a single pose"),
+        (
+            lambda: target_explorer(IRB140, Transform(translation=(2, 0, 0))),
+            ValueError,
+            "target: wanted a pose in reach. Row 0 .* does not exist",
+        ),
+        (lambda: target_explorer(LEVERS, VIA), ValueError, "target: wanted none for three levers"),
         (lambda: motion_explorer(SCARA, START, VIA, GOAL), TypeError, "start: wanted a ScaraPose"),
         (lambda: motion_explorer(IRB140, START, VIA, (1, 2, 3)), TypeError, "goal: wanted"),
         (lambda: motion_explorer(IRB140, START, two, GOAL), ValueError, "via: wanted a single"),

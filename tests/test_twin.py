@@ -83,7 +83,7 @@ every_arm = pytest.mark.parametrize("name", ARMS)
 
 PAGE = """async () => {
   const names = ["kinematics", "dexterity", "geometries", "branches", "levers", "motion",
-                 "recorded", "ticks"];
+                 "recorded", "ticks", "target_explorer"];
   for (const name of names)
     Object.assign(window, await import(`/${name}.js`));
   window.f64 = text => new Float64Array(Uint8Array.from(atob(text), c => c.charCodeAt(0)).buffer);
@@ -344,6 +344,24 @@ def test_page_computes_the_same_rows(twin, name):
             distance_from_singularity(arm, some),
             1e-14,
         )
+
+
+@pytest.mark.parametrize("name", ["IRB140", "PUMA560"])
+def test_page_finds_the_same_usable_rows(twin, name):
+    """1000 targets; in Python, every whole turn of a joint is compared with its limits."""
+    arm, rng = ARMS[name], np.random.default_rng(31)
+    pose = Transform(rotations(rng, 1000), rng.uniform(-0.8, 0.8, (1000, 3)) + [0, 0, 0.6])
+    got = twin(
+        "const turning = [0, 1, 2, 3, 4, 5], q = turning.map(() => 0); return nested(a, 7).flatMap("
+        "pose => foundAt({arm, turning}, {...posed(pose), q, wanted: -1}).usable.map(Number));",
+        arm,
+        numbers(pose),
+        shape=(1000, 8),
+    )
+    q = arm.ik(pose)[..., None] + TURN * np.arange(-2, 3)
+    low, high = arm.limits[:, :1], arm.limits[:, 1:]
+    usable = ((q >= low) & (q <= high)).any(axis=-1).all(axis=-1)
+    assert (got == usable).all() and {0, 2, 4, 6, 8} <= set(usable.sum(axis=-1).tolist())
 
 
 # --- Choice of rows ------------------------------------------------------------------------------

@@ -9,7 +9,7 @@ every branch of `ik` and which of them are usable. The page computes with the sc
 import numpy as np
 
 from .._arrays import ArrayLike, Floats
-from .._validate import floats, instance
+from .._validate import floats, instance, short
 from ..arms.arm import Arm, ClosedFormArm
 from ..arms.branches import explain, nearest, within
 from ..arms.dexterity import distance_from_singularity, spread
@@ -121,21 +121,25 @@ def joint_explorer(
     return Explorer(data, still)
 
 
-def target_explorer(arm: ClosedFormArm | ThreeLeverArm) -> "Explorer":
+def target_explorer(arm: ClosedFormArm | ThreeLeverArm, target: Pose | None = None) -> "Explorer":
     """Show a target with rings and arrows to drag it, and every branch of `ik`, each with a row in
     a table and the chosen one drawn boldly. A click on a row chooses the branch. The menu can do
-    that too, or select the usable branch nearest to the last posture.
+    that too, or select the usable branch nearest to the last posture. It opens at the pose
+    `target`, by default at one with as many usable branches as possible.
 
     The target of a six-axis arm is a position with roll, pitch and yaw as in `joint_explorer`; of a
     SCARA, a position and the tool's angle; of a positioning arm, a position. For three levers it
     shows the position, the free angle alpha, the curve of the cost of getting there from the
     previous posture, and, for unequal levers, their lengths. TypeError: an arm with neither an
-    inverse nor a family of postures.
+    inverse nor a family of postures; a target of another type than Transform (ScaraPose for a
+    SCARA). ValueError: a batch of targets, a target out of reach, a target for three levers.
     """
     if isinstance(arm, ThreeLeverArm):
+        if target is not None:
+            raise ValueError(f"target: wanted none for three levers, got {short(target)}")
         return levers_explorer(arm)
     inverted(arm)
-    place, turns, q = _showcase(arm)
+    place, turns, q = _showcase(arm) if target is None else _opened(arm, target)
     name, size = length_unit(extent(arm))
     most = float(np.ceil(1.05 * extent(arm) / (50 * mm)) * 50 * mm / size)
     step = 1 if size == mm else 0.001
@@ -145,7 +149,8 @@ def target_explorer(arm: ClosedFormArm | ThreeLeverArm) -> "Explorer":
     target = _asked(arm, place, turns)
     rows = arm.ik(target)
     usable = np.all(within(arm, rows), axis=-1)
-    row = int(np.nanargmin(np.where(usable, abs(rows - q).sum(axis=-1), np.inf)))
+    among = usable if usable.any() else np.isfinite(rows).all(axis=-1)
+    row = int(np.where(among, abs(rows - q).sum(axis=-1), np.inf).argmin())
     values = ", ".join(
         f"{c['name']} {number(x, 0 if c['unit'] != 'm' else 3)}"
         for c, x in zip(
@@ -153,10 +158,9 @@ def target_explorer(arm: ClosedFormArm | ThreeLeverArm) -> "Explorer":
         )
     )
     count = int(usable.sum())
-    usable_rows = WORDS["oneUsable" if count == 1 else "someUsable"].format(
-        count=count, all=len(rows), why=explain(arm, target, row)
-    )
-    summary = f"{arm.name} and a target to be moved, at {values}. {usable_rows}"
+    found = "noneUsable" if not count else "oneUsable" if count == 1 else "someUsable"
+    says = WORDS[found].format(count=count, all=len(rows), why=explain(arm, target, row))
+    summary = WORDS["scene"].format(name=arm.name, values=values, says=says)
     shown = rows[np.isfinite(rows).all(axis=-1)]
     turning = np.flatnonzero(~arm.prismatic)
     whole = len(turning) == len(arm.links)
@@ -223,6 +227,21 @@ def _showcase(arm: ClosedFormArm) -> tuple[Floats, Floats, Floats]:
                 best = place, turns, nearest(arm, rows[usable], np.zeros(len(arm.links)))
                 most = score
     return best
+
+
+def _opened(arm: ClosedFormArm, target: Pose) -> tuple[Floats, Floats, Floats]:
+    """The same values as `_showcase`, for the target of a call."""
+    kind = ScaraPose if arm.target is ScaraPose else Transform
+    if instance(target, kind, "target").shape:
+        raise ValueError(f"target: wanted a single pose, got a batch of shape {target.shape}")
+    rows = arm.ik(target)
+    exists = np.isfinite(rows).all(axis=-1)
+    if not exists.any():
+        raise ValueError(f"target: wanted a pose in reach. {explain(arm, target, 0)}")
+    usable = np.all(within(arm, rows), axis=-1)
+    pose = as_transform(target)
+    q = nearest(arm, rows[usable if usable.any() else exists], np.zeros(len(arm.links)))
+    return pose.translation, _turned(arm, pose), q
 
 
 def _open(arm: Arm) -> Floats:

@@ -3,7 +3,7 @@
 import {frames, origin, plus, turned} from "./kinematics.js";
 import {clear, colors, jointColor, number, replaceStill, stroke} from "./canvas.js";
 import {sceneOf, sceneView} from "./scene.js";
-import {orbit, sceneCanvas} from "./controls.js";
+import {orbit, sceneCanvas, spoken} from "./controls.js";
 import {pictures} from "./pictures.js";
 import {control, element} from "./elements.js";
 import {handleLayer} from "./handles.js";
@@ -31,7 +31,8 @@ import {range} from "./sliders.js";
  */
 
 /**
- * The frame of an explorer whose picture is a scene of arms.
+ * The frame of an explorer whose picture is a scene of arms. `name(alt)` changes the name of the
+ * scene for a screen reader.
  * @param {HTMLElement} root
  * @param {PageExplorer} data
  */
@@ -54,7 +55,9 @@ export function stageOf(root, data) {
     },
   });
   orbit(canvas, scene, state, stage.ask);
-  return {...stage, scene};
+  /** @param {string} alt */
+  const name = alt => canvas.setAttribute("aria-label", spoken(scene, alt));
+  return {...stage, scene, name};
 }
 
 /**

@@ -73,7 +73,8 @@ function targetExplorer(stage, data) {
     stage.says,
   );
   const one = data.heads.slice(1).map(() => 1),
-    rows = table(data.branches, data.heads, one, want);
+    rows = table(data.branches, data.heads, one, want),
+    count = counter(stage, words);
   stage.below.append(rows.node);
   stage.handles.set(targetHandles(stage, state, home, data));
 
@@ -82,14 +83,16 @@ function targetExplorer(stage, data) {
       {exists, usable, chosen} = found;
     state.chosen = chosen;
     if (exists[chosen]) state.q = found.rows[chosen];
-    sliders.forEach((s, k) =>
-      s.set(k < 3 ? state.place[k] / unit.size : degrees(state.angle ?? state.turns[k - 3])),
-    );
+    const values = valuesOf(data, state);
+    sliders.forEach((s, k) => s.set(values[k]));
     choice.set(state.wanted + 1);
     rows.set(cells(data, found), exists[chosen] ? chosen : -1, exists);
+    count(usable);
     const {ellipsoid, speeds} = more.at(state.q),
-      why = told(data.task, found.rows, exists);
-    stage.say(why + summary(arm, words, state, usable, chosen) + speeds);
+      why = told(data.task, found.rows, exists),
+      says = why + summary(arm, words, state, usable, chosen) + speeds;
+    stage.say(says);
+    stage.name(fill(words.scene, {name: arm.name, values: inWords(data, values), says}));
     markTarget(stage, state, words.target);
     return [
       {
@@ -122,6 +125,41 @@ const slidersOf = (stage, {arm, controls, unit}, state) =>
     }),
   );
 
+/**
+ * Puts the number of usable branches next to the title, and returns a function that updates it.
+ * @param {Stage} stage
+ * @param {Record<string, string>} words
+ */
+function counter(stage, words) {
+  const number = element("b"),
+    node = element("span", {class: "rk-count"}, number, ` ${words.usable}`);
+  stage.title.append(node);
+  /** @param {boolean[]} usable */
+  return usable => {
+    const count = usable.filter(Boolean).length;
+    number.textContent = fill(words.count, {count, all: usable.length});
+    node.classList.toggle("rk-all", count === usable.length);
+  };
+}
+
+/**
+ * The values of the sliders.
+ * @param {TargetExplorer} data
+ * @param {State} state
+ */
+const valuesOf = ({controls, unit}, {place, angle, turns}) =>
+  controls.map((_, k) => (k < 3 ? place[k] / unit.size : degrees(angle ?? turns[k - 3])));
+
+/**
+ * The values of the sliders as text.
+ * @param {TargetExplorer} data
+ * @param {number[]} values
+ */
+const inWords = ({controls}, values) =>
+  controls
+    .map(({name, unit}, k) => `${name} ${number(values[k], unit === "m" ? 3 : 0)}`)
+    .join(", ");
+
 /** @typedef {ReturnType<typeof foundAt>} Found */
 
 /**
@@ -134,10 +172,10 @@ const ghostsOf = ({rows, exists, usable, chosen}) =>
 /**
  * All branches at the target: the row, whether it exists, which of its joints are inside their
  * limits, its travel from the last posture; and the branch to show.
- * @param {TargetExplorer} data
+ * @param {Pick<TargetExplorer, "arm" | "turning">} data
  * @param {State} state
  */
-function foundAt({arm, turning}, state) {
+export function foundAt({arm, turning}, state) {
   const last = state.q;
   const rows = ik(arm, state).map(row => {
     const near = nearest(arm, [row], last);
