@@ -7,11 +7,9 @@ import re
 import numpy as np
 import pytest
 
-from robokin import PUMA560, deg
+from robokin import PUMA560, deg, mm
 from robokin.course import book, check
 
-FORE = np.hypot(431.8, 20.3)
-OFFSET = np.arctan2(431.8, 20.3)
 lab = book.lab("puma560_branches")
 judged_line = lab.module("own_line")["judged_line"]
 
@@ -24,28 +22,31 @@ def said(front, above, noflip):
     )
 
 
-def front_of(q):
-    return 431.8 * np.cos(q[1]) + FORE * np.cos(q[1] + q[2] + OFFSET) > 0
+def front_of(q, a2, a3, d4):
+    return a2 * np.cos(q[1]) + a3 * np.cos(q[1] + q[2]) > d4 * np.sin(q[1] + q[2])
 
 
-def by_flags(q):
-    front = front_of(q)
-    return said(front, front != (np.sin(q[2] + OFFSET) > 0), q[4] > 0)
+def by_flags(q, a2, a3, d4):
+    front = front_of(q, a2, a3, d4)
+    return said(front, front != (np.sin(q[2] + np.arctan2(d4, a3)) > 0), q[4] > 0)
 
 
-def by_row(turn_back, order):
-    def name(q):
-        miss = PUMA560.ik(PUMA560.fk(q)) - q
-        if turn_back:
-            miss = (miss + np.pi) % (2 * np.pi) - np.pi
-        row = np.linalg.norm(miss, ord=order, axis=-1).argmin()
-        front, elbow, wrist = PUMA560.branches[row]
-        return " ".join(said(front > 0, front * elbow < 0, wrist > 0))
-
-    return name
+def by_places(q, a2, a3, d4):
+    """From the places of elbow and wrist centre, as measured in the plane of the arm."""
+    elbow = a2 * np.exp(1j * q[1])
+    wrist = elbow + (a3 + 1j * d4) * np.exp(1j * (q[1] + q[2]))
+    above = elbow.imag > wrist.imag * elbow.real / wrist.real
+    return " ".join(said(wrist.real > 0, above, q[4] > 0))
 
 
-@pytest.mark.parametrize("answer", [by_flags, by_row(True, 1), by_row(True, np.inf)])
+def by_row(q, *lengths):
+    """From the row of the PUMA's inverse that is this posture, up to whole turns."""
+    off = np.sin((PUMA560.ik(PUMA560.fk(q)) - q) / 2)
+    front, elbow, wrist = PUMA560.branches[abs(off).max(axis=-1).argmin()]
+    return " ".join(said(front > 0, front * elbow < 0, wrist > 0))
+
+
+@pytest.mark.parametrize("answer", [by_flags, by_places])
 def test_correct_configuration_names_pass(answer):
     verdict = check("puma560_branches.1", answer)
     assert verdict.holds, verdict
@@ -54,16 +55,15 @@ def test_correct_configuration_names_pass(answer):
 @pytest.mark.parametrize(
     "answer, mistake",
     [
-        (by_row(False, 1), "whole turns in the comparison of rows"),
-        (by_row(False, 2), "whole turns in the comparison of rows"),
-        (by_row(False, np.inf), "whole turns in the comparison of rows"),
-        (lambda q: (*by_flags(q)[:2], "NOFLIP"), "always NOFLIP"),
+        (by_row, "the lengths of the PUMA"),
+        (lambda q, *_: by_flags(q, 431.8, 20.3, 431.8), "the lengths of the PUMA"),
+        (lambda q, *rest: (*by_flags(q, *rest)[:2], "NOFLIP"), "always NOFLIP"),
         (
-            lambda q: said(front_of(q), q[2] < -90 * deg, q[4] > 0),
-            "the stretched arm at q3 = −90°, and the elbow's flag alone, −1 for ABOVE",
+            lambda q, *rest: said(front_of(q, *rest), q[2] < -90 * deg, q[4] > 0),
+            "the stretched arm at q3 = −90°, and the elbow flag alone, −1 for ABOVE",
         ),
         (
-            lambda q: said(front_of(q), np.sin(q[1]) > 0, q[4] > 0),
+            lambda q, *rest: said(front_of(q, *rest), np.sin(q[1]) > 0, q[4] > 0),
             "higher than the shoulder",
         ),
     ],
@@ -100,14 +100,14 @@ def test_correct_speeds_pass(answer):
     [
         (
             lambda q, d, most: abs(PUMA560.jacobian(q)[:3].T @ d) @ most / np.sqrt((d * d).sum()),
-            "forward for inverse",
+            "forward instead of inverse",
         ),
         (
             lambda q, d, most: 1 / np.linalg.norm(rates(q, d) / most),
             "the length of the joint speeds",
         ),
         (lambda q, d, most: (most / abs(rates(q, d))).sum(), "the sum of the quotients"),
-        (lambda q, d, most: most.mean() / abs(rates(q, d)).max(), "one most for all joints"),
+        (lambda q, d, most: most.mean() / abs(rates(q, d)).max(), "the mean limit for all joints"),
     ],
 )
 def test_mistakes_in_speeds_are_named(answer, mistake):
@@ -123,7 +123,7 @@ def test_mistakes_in_speeds_are_named(answer, mistake):
         (lambda fastest: 0.9, "too fast"),
         (lambda fastest: 1.02 * deg, "degrees for radians"),
         (lambda fastest: 1.02 / deg, "degrees for radians"),
-        (lambda fastest: 1.02 * fastest, "the joint speed for the duration"),
+        (lambda fastest: 1.02 * fastest, "the joint speed instead of the duration"),
     ],
 )
 def test_durations_get_the_expected_verdict(change, mistake):
@@ -167,9 +167,9 @@ def test_messages_about_lines_do_not_reveal_the_answer(factor):
 
 def test_distances_and_speeds_are_reported_as_sensible_numbers():
     names, speeds = lab.exercises["1"], lab.exercises["2"]
-    for k, (q,) in enumerate(names.cases):
-        told = names.code["law"]((q,), "nothing", names.wanted[k])
-        assert int(re.search(r"the elbow (\d+) mm", told)[1]) <= 432, told
+    for k, case in enumerate(names.cases):
+        told = names.code["law"](case, "nothing", names.wanted[k])
+        assert int(re.search(r"the elbow is (\d+) mm", told)[1]) <= case[1] / mm, told
     law, case, right = speeds.code["law"], speeds.cases[0], speeds.wanted[0]
     assert "1.5 · 10³¹ m/s is far too fast" in law(case, 1.489e31, right)
     should, is_at = re.findall(r"(\d\.\d+) m/s", law(case, 1.003 * right, right))
@@ -177,17 +177,16 @@ def test_distances_and_speeds_are_reported_as_sensible_numbers():
 
 
 def test_missing_offset_and_slightly_wrong_bend_are_detected():
-    def of(q, ahead, bend):
-        front = ahead(q) > 0
-        return said(front, front != (np.sin(bend(q)) > 0), q[4] > 0)
+    def of(q, front, bend):
+        return said(front, front != (np.sin(bend) > 0), q[4] > 0)
 
-    def without_a3(q):
-        return np.cos(q[1]) - np.sin(q[1] + q[2])
+    def without_a3(q, a2, a3, d4):
+        front = a2 * np.cos(q[1]) - d4 * np.sin(q[1] + q[2]) > 0
+        return of(q, front, q[2] + np.arctan2(d4, a3))
 
-    def right(q):
-        return 431.8 * np.cos(q[1]) + FORE * np.cos(q[1] + q[2] + OFFSET)
-
-    left_out = check("puma560_branches.1", lambda q: of(q, without_a3, lambda q: q[2] + OFFSET))
-    assert left_out.mistake == "a3 is left out"
-    off = check("puma560_branches.1", lambda q: of(q, right, lambda q: q[2] + 85 * deg))
+    assert check("puma560_branches.1", without_a3).mistake == "a3 is left out"
+    off = check(
+        "puma560_branches.1",
+        lambda q, a2, a3, d4: of(q, front_of(q, a2, a3, d4), q[2] + np.arctan2(d4, a3) - 2 * deg),
+    )
     assert not off.holds

@@ -49,13 +49,13 @@ def law(case: tuple[Any, ...], yours: float, wanted: float) -> str | None:
     twist = [*(direction / np.linalg.norm(direction)), 0, 0, 0]
     share = abs(np.linalg.solve(PUMA560.jacobian(q), twist)) * wanted / most
     should, is_at = apart(wanted, yours, 4)
-    says = f"should be {should} m/s: joint {int(share.argmax()) + 1} then turns with its most"
+    says = f"should be {should} m/s: joint {int(share.argmax()) + 1} then turns at its limit"
     if not np.isfinite(yours) or yours <= 0:
         return says
     if yours > 100 * wanted:
         return f"{says}; {is_at} m/s is far too fast"
     used = apart(100 * yours / wanted, 100, 0)[0]  # all joints are scaled by the same factor
-    return f"{says}; at {is_at} m/s it turns with {used} % of it"
+    return f"{says}; at {is_at} m/s it turns at {used} % of it"
 
 
 def same(a: float, b: float) -> bool:

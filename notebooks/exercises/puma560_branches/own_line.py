@@ -1,4 +1,4 @@
-"""Exercise 3: a student's own line, and the faults of a row and a duration on it."""
+"""Exercise 3: a student's own line, and the faults of a row and of a duration on it."""
 
 from collections.abc import Mapping
 from functools import cache
@@ -147,11 +147,11 @@ def row_fault(line: Judged, row: int) -> tuple[str, str]:
         f"up to {most[joint] / deg:.0f}°."
     )
     if line.at_start[row] and line.at_goal[row]:
-        says += " At both ends the posture is usable: look at the angles that were followed."
+        says += " At both ends the posture is usable: follow the angles from end to end."
         return "usable at both ends, not in between", says
     if row == line.obvious:
-        says += " At the start it is usable, and the nearest to the rest posture. "
-        return "usable at the start, not to the end", says + "Rows count from 0."
+        says += " At the start it is the usable row nearest to the rest posture."
+        return "usable at the start, not to the end", says
     return "not usable to the end", says + " Follow each row to the end of the line."
 
 
@@ -159,22 +159,23 @@ def fast_fault(line: Judged, row: int, duration: float, fastest: float) -> tuple
     """How fast a joint turns, and the likely cause of such a duration."""
     is_at, most = apart(line.speed[row] / duration / deg, fastest / deg, 0)
     says = (
-        f"In {duration:.4g} s a joint of row {row} turns with up to {is_at}°/s; allowed are "
+        f"In {duration:.4g} s a joint of row {row} turns at up to {is_at}°/s; the limit is "
         f"{most}°/s."
     )
     if abs(duration * fastest / line.mean[row] - 1) < 0.005:
-        says += " Way over time is the mean. The quintic law is faster than that in the middle."
-        return "the mean speed for the greatest", says
+        says += " You used the mean speed. In the middle the quintic law is faster than that."
+        return "the mean speed instead of the greatest", says
     if abs(duration * fastest / line.mean[row] / (15 / 8) - 1) < 0.005:
         says += (
-            " 15/8 of the mean is the peak where every joint turns from end to end by the quintic "
-            "law. On a straight line of the flange it does not: differentiate the angles."
+            " You used 15/8 of the mean speed. That is the peak of a PTP move, in which each joint "
+            "follows the quintic law. On a straight line of the flange it does not: differentiate "
+            "the angles."
         )
         return "the peak of PTP on a line", says
     if fault := unit_fault(duration * fastest / line.speed[row], fastest, says):
         return fault
     if (duration >= 0.995 * line.least(fastest)).any():
-        says += " For another row it would be enough."
+        says += " For another row this duration would be enough."
     return "too fast", says
 
 
@@ -182,20 +183,20 @@ def unit_fault(share: float, fastest: float, says: str) -> tuple[str, str] | Non
     """The fault of a duration that is this share of the correct one; None: no known fault."""
     for wrong in (deg, 1 / deg):
         if 0.995 < share / wrong < LONGEST:
-            says += " Joint speed and fastest have to be in one unit: both in rad/s."
+            says += " Give the joint speed and fastest in the same unit: both in rad/s."
             return "degrees for radians", says
     if abs(fastest - 1) > 0.2 and abs(share / fastest - 1) < 0.021:
-        says += " This number is the greatest joint speed in one second. In T seconds it is T "
-        return "the joint speed for the duration", says + "times less: divide it by fastest."
+        says += " This number is the greatest joint speed if the line takes one second. Divide it "
+        return "the joint speed instead of the duration", says + "by fastest to get the duration."
     return None
 
 
 def slow_fault(line: Judged, row: int, duration: float, fastest: float) -> tuple[str, str]:
     """The fault of a slow motion: a row that turns more, another unit, or only the duration."""
-    says = f"{duration:.4g} s is more than 5 % above the shortest duration there is."
+    says = f"{duration:.4g} s is more than 5 % above the shortest possible duration."
     least = line.least(fastest)
     if line.serves[row] and least[row] > LONGEST * least.min():
-        says += f" Row {row} is usable to the end, but it turns more."
-        return "a row that serves, and not the quickest", says
+        says += f" Row {row} is usable to the end, but another row needs less time."
+        return "a row that reaches the goal, but not the quickest", says
     fault = unit_fault(duration * fastest / line.speed[row], fastest, says)
     return fault or ("too slow", says)

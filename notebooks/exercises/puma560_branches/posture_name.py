@@ -1,16 +1,17 @@
-"""Exercise 1: the cases, the form of a name, the law, and helpers for the wrong lines."""
+"""Exercise 1: the cases, the form of a name and the law."""
 
 import re
 from typing import Any
 
 import numpy as np
 
-from robokin import PUMA560, deg, mm
+from robokin import deg, mm
 from robokin.course.exercises import in_words
 
-from .shared import FORE, HIGH, LOW, OFFSET, UPPER, Floats
+from .shared import HIGH, LOW, Floats
 
 PAIRS = ({"RIGHTY", "LEFTY"}, {"ABOVE", "BELOW"}, {"FLIP", "NOFLIP"})
+PUMA = (431.8, 20.3, 431.8)  # mm: a2, a3, d4
 SIMPLE = (  # degrees
     (0, 60, -170, 0, 40, 0),
     (0, 60, -170, 0, -40, 0),
@@ -29,32 +30,43 @@ SIMPLE = (  # degrees
     (0, 60, -86, 0, 40, 0),  # q3 between the stretched arm and -85
     (0, 150, -86, 0, -40, 0),
 )
+OTHER = (  # lengths, and a posture that has another name on the PUMA
+    ((500, 100, 300), (0, 60, -80, 0, 40, 0)),  # stretched at -71.6
+    ((300, 0, 600), (0, 50, -15, 0, 40, 0)),  # the long forearm reaches back behind axis 1
+    ((600, -100, 300), (0, 60, -95, 0, -40, 0)),  # stretched at -108.4
+)
 
 
-def ahead(q: Floats) -> float:
-    """How far the wrist centre is ahead of axis 1, in the arm's plane."""
-    return float(UPPER * np.cos(q[1]) + FORE * np.cos(q[1] + q[2] + OFFSET))
-
-
-def wrist_height(q: Floats) -> float:
-    """The height of the wrist centre above the shoulder."""
-    return float(UPPER * np.sin(q[1]) + FORE * np.sin(q[1] + q[2] + OFFSET))
-
-
-def above_line(q: Floats) -> float:
-    """The height of the elbow above the line from shoulder to wrist."""
-    return float(UPPER * (np.sin(q[1]) - np.cos(q[1]) * np.divide(wrist_height(q), ahead(q))))
+def sides(q: Floats, a2: float, a3: float, d4: float) -> tuple[float, float, float]:
+    """How far the wrist centre is ahead of axis 1 in the arm's plane, and above the shoulder, and
+    how far the elbow is above the line from the shoulder to the wrist centre.
+    """
+    forearm = q[1] + q[2]  # its direction is up at 0
+    ahead = a2 * np.cos(q[1]) + a3 * np.cos(forearm) - d4 * np.sin(forearm)
+    high = a2 * np.sin(q[1]) + a3 * np.sin(forearm) + d4 * np.cos(forearm)
+    rise = a2 * (np.sin(q[1]) - np.cos(q[1]) * np.divide(high, ahead))
+    return float(ahead), float(high), float(rise)
 
 
 def cases(rng: np.random.Generator) -> list[tuple[Any, ...]]:
-    """Simple postures, then random ones whose names do not depend on rounding."""
-    made = [(np.array(q) * deg,) for q in SIMPLE]
-    while len(made) < 40:
+    """Simple postures of the PUMA, then of other arms, then random ones whose names do not depend
+    on rounding.
+    """
+    made: list[tuple[Any, ...]] = [(np.array(q) * deg, *scaled(PUMA)) for q in SIMPLE]
+    made += [(np.array(q) * deg, *scaled(lengths)) for lengths, q in OTHER]
+    while len(made) < 48:
         q = rng.uniform(LOW, HIGH).round(2)
-        clear = abs(ahead(q)) > 10 * mm and abs(np.sin(q[2] + OFFSET)) > 0.02 and abs(q[4]) > 0.05
-        if clear and abs(above_line(q)) > 2 * mm:
-            made.append((q,))
+        a2, a3, d4 = (float(x) for x in rng.integers([25, -12, 25], [70, 13, 70]) * 10 * mm)
+        ahead, _, rise = sides(q, a2, a3, d4)
+        bend = np.sin(q[2] + np.arctan2(d4, a3))
+        if abs(ahead) > 10 * mm and abs(bend) > 0.02 and abs(q[4]) > 0.05 and abs(rise) > 2 * mm:
+            made.append((q, a2, a3, d4))
     return made
+
+
+def scaled(lengths: tuple[float, ...]) -> list[float]:
+    """Lengths in metres."""
+    return [x * mm for x in lengths]
 
 
 def form(result: Any, case: tuple[Any, ...]) -> str:
@@ -72,30 +84,12 @@ def law(case: tuple[Any, ...], yours: str, wanted: str) -> str | None:
     """The correct name, and the measurements that it depends on."""
     if yours == wanted:
         return None
-    (q,) = case
-    side = ahead(q)
-    rise = above_line(q) * abs(side) / np.hypot(side, wrist_height(q))  # perpendicular to the line
+    q, *lengths = case
+    ahead, high, rise = sides(q, *lengths)
+    rise *= abs(ahead) / np.hypot(ahead, high)  # perpendicular to the line
     return (
-        f"should be {wanted}: the wrist centre is {abs(side) / mm:.0f} mm "
-        f"{'ahead of' if side > 0 else 'behind'} axis 1, the elbow {abs(rise) / mm:.0f} mm "
-        f"{'above' if rise > 0 else 'below'} the line from shoulder to wrist centre, and q5 is "
-        f"{q[4] / deg:.0f}°"
+        f"should be {wanted}: the wrist centre is {abs(ahead) / mm:.0f} mm "
+        f"{'ahead of' if ahead > 0 else 'behind'} axis 1, the elbow is {abs(rise) / mm:.0f} mm "
+        f"{'above' if rise > 0 else 'below'} the line from the shoulder to the wrist centre, and "
+        f"q5 is {q[4] / deg:.0f}°"
     )
-
-
-# --- Helpers for the wrong lines ------------------------------------------------------------------
-
-
-def above_line_in_x(q: Floats) -> float:
-    """As `above_line`, but with x of the base instead of the distance in the arm's plane."""
-    _, shoulder, elbow, *_, wrist = PUMA560.frames(q).translation
-    (x, _, z), (far, _, high) = elbow - shoulder, wrist - shoulder
-    return float(z - high * np.divide(x, far))
-
-
-def row_as_it_is(q: Floats, order: float) -> str:
-    """The name of the nearest row in the norm of this order; the angles are not wrapped."""
-    miss = np.linalg.norm(PUMA560.ik(PUMA560.fk(q)) - q, ord=order, axis=-1)
-    front, elbow, wrist = PUMA560.branches[int(miss.argmin())]
-    arm, height = "RIGHTY" if front > 0 else "LEFTY", "ABOVE" if front * elbow < 0 else "BELOW"
-    return f"{arm} {height} {'NOFLIP' if wrist > 0 else 'FLIP'}"
