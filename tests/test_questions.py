@@ -7,7 +7,7 @@ from robokin.course.guesses import CHOICE
 from robokin.course.predictions import chosen
 from robokin.course.questions import LETTERS, chosen_option, filled
 
-NAME = "puma560_branches.p3"
+NAME = "puma560_branches.p2"
 
 
 def test_option_name_takes_precedence_over_its_letter():

@@ -284,7 +284,7 @@ def test_a_mirror_is_orthogonal_and_phi_loses_digits_as_stated():
 
 def test_unwrapping_matters_only_for_joint_6():
     words = flat("07", "choose-rule")
-    assert "One detail decides where joint 6, of 532°, winds past its limit:" in words
+    assert "This matters for joint 6 alone, with its range of 532°." in words
     low, high = PUMA560.limits.T
     assert ((high - low) / deg > 360).tolist() == [False] * 5 + [True]
     assert round((high - low)[5] / deg) == 532
@@ -302,9 +302,10 @@ def test_unwrapping_matters_only_for_joint_6():
 
 def test_rows_4_to_6_end_with_a_joint_wound_past_its_limit():
     words = flat("07", "choose-look")
-    assert "pass a limit in between. Rows 4 to 6 end with a joint wound past it" in words
-    assert "(speeds in steps of 0.01 s)" in words
-    made = run_cells("07", "opening-setup")
+    assert "rows 3 to 6 are usable at the start *and* at the goal, and pass a limit in" in words
+    told = flat("07", "deeper-nearest-look")
+    assert "Rows 4 to 6 of that line end with a joint wound past its limit" in told
+    made = run_cells("07", "choose-player")
     low, high = PUMA560.limits.T
     ends, wound = [], []
     for k, q in enumerate(made["motions"]):
@@ -318,9 +319,27 @@ def test_rows_4_to_6_end_with_a_joint_wound_past_its_limit():
     assert ends == [3, 4, 5, 6] and wound == [4, 5, 6]
 
 
-def test_statements_on_the_worst_case_folded_arms_and_the_ellipsoid_are_true():
+def test_the_blocks_of_the_jacobian_have_the_stated_determinants():
     words = flat("07", "near")
-    assert "arm stretched or folded" in words and "so divided, of length $\\sigma$" in words
+    assert "span a parallelogram of area $l_2 l_3 |\\sin\\gamma|$" in words
+    assert "moves it out of this plane, by $|r|$ for each radian" in words
+    for q in np.random.default_rng(7).uniform(*PUMA560.limits.T, size=(50, 6)):
+        J, corners = PUMA560.jacobian(q), PUMA560.frames(q).translation
+        shoulder, elbow, wrist = corners[[1, 2, 4]]
+        normal = np.array([np.sin(q[0]), -np.cos(q[0]), 0])  # of the arm's plane
+        lifted = wrist - 0.15005 * normal
+        area = np.linalg.norm(np.cross(elbow - shoulder, lifted - elbow))
+        r = (lifted - shoulder) @ [np.cos(q[0]), np.sin(q[0]), 0]
+        assert abs(J[:3, 3:]).max() < 1e-12
+        assert np.linalg.norm(np.cross(J[:3, 1], J[:3, 2])) == pytest.approx(area)
+        assert abs(J[:3, 0] @ normal) == pytest.approx(abs(r))
+        assert abs(np.linalg.det(J[:3, :3])) == pytest.approx(abs(r) * area)
+        assert abs(np.linalg.det(J[3:, 3:])) == pytest.approx(abs(np.sin(q[4])))
+
+
+def test_statements_on_the_worst_case_and_the_ellipsoid_are_true():
+    words = flat("07", "cross-jacobian")
+    assert "together, that joint speeds of length 1 rad/s can give." in words
     q = np.array([10, 60, -93, 20, 30, 40]) * deg
     J = PUMA560.jacobian(q)
     J = np.vstack([J[:3] / PUMA560.reach, J[3:]])
@@ -328,9 +347,6 @@ def test_statements_on_the_worst_case_folded_arms_and_the_ellipsoid_are_true():
     sigma = float(LINE["near"](q))
     assert np.linalg.norm(J @ left) == pytest.approx(sigma)
     assert (np.linalg.norm(J @ np.random.default_rng(1).normal(size=(6, 50)), axis=0) > sigma).any()
-    bent = np.arctan2(431.8, 20.3) / deg
-    for q3 in (-bent, 180 - bent):
-        assert abs(np.linalg.det(PUMA560.jacobian(np.array([0, 40, q3, 0, 50, 0]) * deg))) < 1e-12
     assert "it goes flat, to 1 mm/s." in flat("07", "near-look")
     steps = 1e-6 * np.eye(6)
     q = np.array([0, 60, -87, 0, 0, 0]) * deg
@@ -339,52 +355,58 @@ def test_statements_on_the_worst_case_folded_arms_and_the_ellipsoid_are_true():
 
 
 def test_elbow_line_ends_at_the_stated_distance_from_full_stretch():
-    assert "ending where from shoulder to wrist centre $m$ is left to stretch" in flat(
-        "07", "cross"
-    )
-    upper, fore, d3 = 431.8, np.hypot(431.8, 20.3), 150.05
-    for m in (100, 10):
-        place = LINE["stretched"](m * mm).translation / mm - [0, 0, 671.83]
-        out = np.sqrt(place @ place - d3**2)
-        assert upper + fore - out == pytest.approx(m)
-    assert "We ask many poses that the arm can reach" in flat("07", "count")
+    told = flat("07", "cross-jacobian")
+    assert "*elbow* goes outwards and ends $m$ before full stretch" in told
+    made = run_cells("07", "cross-player", "cross-cost")
+    _, pose, away, along = made["LINES"]["elbow"]
+    assert along.tolist() == [1, 0, 0] and away.tolist() == [-1, 0, 0]
+    for place in (pose.translation, LINE["stretched"](0).translation):
+        out = place / mm - [0, 0, 671.83]
+        assert np.sqrt(out @ out - 150.05**2) == pytest.approx(431.8 + np.hypot(431.8, 20.3))
+    for m in (100 * mm, 10 * mm):
+        assert LINE["stretched"](m).translation == pytest.approx(pose.translation + m * away)
+    assert "We take many poses in reach" in flat("07", "count")
 
 
-def test_forearm_direction_is_as_stated_in_the_first_prediction():
-    _, options, _ = asked("puma560_branches.p1")
-    level = next(o for o in options if "parallel to the upper arm" in o.reason)
-    assert level.text.endswith("90") and "joint 3's" in options[0].reason
-    frames = PUMA560.frames(np.array([0, 0, -90, 0, 0, 0]) * deg)
-    shoulder, elbow, wrist = frames.translation[[1, 2, 4]]
-    upper, fore = elbow - shoulder, frames.translation[4] - frames.translation[3]
-    assert np.linalg.norm(np.cross(upper, fore)) < 1e-9
-    assert abs((wrist - elbow)[2] / mm) == pytest.approx(20.3)
+def test_arm_is_stretched_and_forearm_points_up_where_stated():
+    assert "atan2}(d_4, a_3) = -87.3°$" in flat("07", "triangle-formula")
     words = written("puma560_branches")
-    assert "At q3 = 0 the line to the wrist centre stands at 87.3° to the upper arm" in words
-    for q3 in (0, -40):
-        places = PUMA560.frames(np.array([0, 0, q3, 0, 0, 0]) * deg).translation
-        angle = np.arctan2(*(places[4] - places[2])[[2, 0]]) / deg
-        assert angle == pytest.approx(q3 + 87.3, abs=0.02)
     assert "At q2 = q3 = 0 the forearm points up" in words
+    for q3 in (-87.3, -90, 0):
+        places = PUMA560.frames(np.array([0, 0, q3, 0, 0, 0]) * deg).translation
+        shoulder, elbow, wrist = places[[1, 2, 4]] + np.array([[0], [0], [0.15005]]) * [0, 1, 0]
+        straight = np.linalg.norm(elbow - shoulder) + np.linalg.norm(wrist - elbow)
+        assert (np.linalg.norm(wrist - shoulder) > (1 - 1e-6) * straight) == (q3 == -87.3)
     for q2, up in ((0, 1), (90, 0)):
         places = PUMA560.frames(np.array([0, q2, 0, 0, 0, 0]) * deg).translation
         fore = places[4] - places[3]
         assert fore[2] / np.linalg.norm(fore) == pytest.approx(up, abs=1e-9)
 
 
-def test_the_joints_in_which_two_rows_differ_depend_on_the_pose():
-    question, options, right = asked("puma560_branches.p3")
-    assert "for the flange's pose at the start of the line" in question
-    for q, differ in (
-        (PUMA560.ik(LINE["START"])[0], [2, 3, 4, 5, 6]),
-        (np.array([104.9, 65.5, -76.6, 0, 50.7, 20.3]) * deg, [2, 3, 5]),
-    ):
-        rows = PUMA560.ik(PUMA560.fk(q))
-        one = abs(np.exp(1j * rows) - np.exp(1j * q)).max(axis=1).argmin()
-        other = rows[{0: 2, 2: 0}[int(one)]]
-        off = abs(np.exp(1j * rows[one]) - np.exp(1j * other))
-        assert (np.flatnonzero(off > 1e-3) + 1).tolist() == differ
-    assert options[right].text.startswith("Joints 2 to 6")
+def test_rows_0_and_2_of_the_first_view_share_joint_1_alone():
+    text = flat("07", "eight")
+    assert "same value in rows 0 and 2?" in text and "Joint 1. The elbow moves" in text
+    level = Quaternion.from_angle_axis(90 * deg, [0, 1, 0])
+    rows = PUMA560.ik(Transform(level, np.array([550, 0, 800]) * mm))
+    off = abs(np.exp(1j * rows[0]) - np.exp(1j * rows[2]))
+    assert (np.flatnonzero(off < 1e-9) + 1).tolist() == [1] and (off[1:] > 0.05).all()
+
+
+def test_the_name_of_a_posture_fits_what_can_be_measured():
+    question, options, right = asked("puma560_branches.p9")
+    q = np.array(numbers(r"\((\S+), (\S+), (\S+), (\S+), (\S+), (\S+)\), in deg", question)) * deg
+    places = PUMA560.frames(q).translation
+    elbow, wrist = (p[[0, 2]] for p in places[[2, 4]] - places[1])  # joint 1 is at 0
+    side = "RIGHTY" if PUMA560.jacobian(q)[2, 1] > 0 else "LEFTY"
+    height = "ABOVE" if elbow[1] > wrist[1] * elbow[0] / wrist[0] else "BELOW"
+    flip = "NOFLIP" if q[4] > 0 else "FLIP"
+    assert q[0] == 0 and options[right].text == f"{side} {height} {flip}."
+    (r, gamma) = numbers(r"r is (\S+) mm, .*γ is (\S+)°,", options[right].reason)
+    assert round(wrist[0] / mm) == r
+    bend = np.arctan2(*(wrist - elbow)[::-1]) - np.arctan2(*elbow[::-1])
+    assert np.angle(np.exp(1j * bend)) / deg == pytest.approx(gamma, abs=0.051)
+    assert "Turn joint 1 to 150°: the wrist centre comes to x > 0" in options[0].second
+    assert PUMA560.fk(q + [150 * deg, 0, 0, 0, 0, 0]).translation[0] > 0
 
 
 def test_front_row_is_past_joint_1s_limit_for_far_poses_straight_behind():
@@ -397,7 +419,7 @@ def test_front_row_is_past_joint_1s_limit_for_far_poses_straight_behind():
 
 def test_most_short_lines_keep_their_row():
     _, options, _ = asked("puma560_branches.p7")
-    assert any(o.reason.startswith("Most short lines stay where") for o in options)
+    assert any(o.reason.startswith("On most short lines a row that is usable") for o in options)
     rng = np.random.default_rng(9)
     ends = LINE["random_poses"](rng, (300,))
     way = rng.normal(size=(300, 3))

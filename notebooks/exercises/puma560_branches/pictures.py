@@ -5,19 +5,30 @@ from typing import Any
 import numpy as np
 
 from robokin import PUMA560, deg, differentiate, mm
-from robokin.show import curves, figure, plot_frames
+from robokin.show import Sketch, curves, figure, plot_velocity_ellipsoid
 from robokin.show.palette import AREA, COMPARED, FIRST, SECOND
 
 from . import predictions as of
-from .shared import D3, HIGH, LOW
+from .shared import D3, FORE, HIGH, LOW, OFFSET, UPPER
 
 
-def p1_view() -> Any:
-    frames = PUMA560.frames(np.array([0, 0, of.p1()["down"], 0, 0, 0]) * deg)
-    shown = [frames[k] for k in (0, 1, 2, 3, 6)]
-    names = ["base", "shoulder", "elbow", "forearm", "flange"]
-    title = f"q2 = 0, q3 = {of.p1()['down']}°".translate(of.MINUS)
-    return plot_frames(shown, chain=True, size=120 * mm, names=names, title=title)
+def p4_view() -> Any:
+    shares = of.left_shares()
+    fig = figure(
+        "How many of eight rows are inside the limits at a random pose that can be reached: none "
+        f"in {shares[0]:.1f} percent of the poses, all eight in {shares[8]:.1f} percent.",
+        8,
+        3.2,
+    )
+    ax = fig.subplots()
+    ax.bar(range(9), shares, color=FIRST)
+    for k, value in enumerate(shares):
+        ax.text(k, value + 0.7, f"{value:.1f}", ha="center", fontsize=9)
+    ax.set(xlabel="rows inside the limits", ylabel="share of the poses, %", xticks=range(9))
+    title = f"{shares[0]:.0f} % of the poses in reach have no usable row"
+    ax.set(ylim=(0, 1.2 * shares.max()), title=title)
+    fig.tight_layout()
+    return fig
 
 
 def p2_view() -> Any:
@@ -44,41 +55,24 @@ def p2_view() -> Any:
     return fig
 
 
-def p3_view() -> str:
-    return (
-        "At the start of the line, q1 to q6 in degrees:\n"
-        f"row 0 (+1 +1 +1): {of.p3()['row0']}\n"
-        f"row 2 (+1 −1 +1): {of.p3()['row2']}"
+def p9_view() -> Sketch:
+    facts, (_, q2, q3, *_) = of.p9(), np.array(of.NAMED) * deg
+    gamma = q3 + OFFSET
+    elbow = UPPER * np.array([np.cos(q2), np.sin(q2)])
+    wrist = elbow + FORE * np.array([np.cos(q2 + gamma), np.sin(q2 + gamma)])
+    sketch = Sketch(
+        "The arm from the side: the upper arm leans back a little and the forearm points back, so "
+        f"that r is {facts['r']} mm at the wrist centre. The elbow is above the line from the "
+        "shoulder to the wrist centre.",
+        title=f"{facts['right']}: r < 0, elbow above the line",
+        x="r",
+        y="h",
+        width=6,
+        height=4,
     )
-
-
-def p4_view() -> Any:
-    shares = of.left_shares()
-    fig = figure(
-        "How many of eight rows are inside the limits at a random pose that can be reached: none "
-        f"in {shares[0]:.1f} percent of the poses, all eight in {shares[8]:.1f} percent.",
-        8,
-        3.2,
-    )
-    ax = fig.subplots()
-    ax.bar(range(9), shares, color=FIRST)
-    for k, value in enumerate(shares):
-        ax.text(k, value + 0.7, f"{value:.1f}", ha="center", fontsize=9)
-    ax.set(xlabel="rows inside the limits", ylabel="share of the poses, %", xticks=range(9))
-    title = f"{shares[0]:.0f} % of what it reaches it cannot use"
-    ax.set(ylim=(0, 1.2 * shares.max()), title=title)
-    fig.tight_layout()
-    return fig
-
-
-def p5_view() -> str:
-    facts = of.p5()
-    lines = [
-        f"{facts[k]}: |det J| = {facts[f'det_{k}']:.1f}e-4 m³, "
-        f"smallest singular value {facts[f'sigma_{k}']:.4f}"
-        for k in ("both", "one")
-    ]
-    return "\n".join(lines).translate(of.MINUS)
+    sketch.levers([(0, 0), elbow, wrist], ["shoulder", "elbow", "wrist centre"])
+    sketch.length((0, 0), wrist)
+    return sketch
 
 
 def p6_view() -> Any:
@@ -104,7 +98,7 @@ def p6_view() -> Any:
     left.set(xlabel="distance m, mm", ylabel="greatest joint speed, °/s")
     left.set(ylim=(10, 1e5), title="The price depends on the direction")
     right.set(xlabel="distance m, mm", ylabel="distance from singularity")
-    right.set(title="The warning does not")
+    right.set(title="The distance from singularity does not")
     right.legend(fontsize=9)
     fig.tight_layout()
     return fig
@@ -112,13 +106,24 @@ def p6_view() -> Any:
 
 def p7_view() -> str:
     lines = [
-        f"{of.PAIRS} lines join random poses: the wrist centre spread evenly over the box about",
-        "what the stretched arm reaches, the orientation over all rotations.",
-        f"On {of.p7()['lines']} of the lines all eight rows exist and at least one serves.",
-        "Of these a rule misses:",
+        f"{of.PAIRS} lines join random poses: the wrist centre is spread evenly over the box",
+        "around the reach of the stretched arm, and the orientation over all rotations.",
+        f"On {of.p7()['lines']} of them all eight rows exist and at least one stays inside the "
+        "limits to the end.",
+        "A rule for the first pose fails on this share of them (the program is under More):",
     ]
     lines += [f"{name}: {of.p7()[f'rule{k}']:.0f} %" for k, name in enumerate(of.RULES)]
     return "\n".join(lines)
+
+
+def p5_view() -> Any:
+    facts = of.p5()
+    sigmas = " and ".join(f"{facts[f'sigma_{k}']:.4f}" for k in ("both", "one"))
+    return plot_velocity_ellipsoid(
+        PUMA560,
+        np.array(of.NEAR) * deg,
+        title=f"Velocities of the flange in A (posture 1) and B: σ = {sigmas}",
+    )
 
 
 def p8_view() -> Any:

@@ -9,7 +9,22 @@ import numpy as np
 from robokin import PUMA560, Quaternion, Transform, blend, deg, differentiate, lin, mm, quintic
 from robokin.motion import refined_maximum
 
-from .shared import D3, FORE, REST, UPPER, Floats, X, Y, Z, excess, near, serves, tracks, usable
+from .shared import (
+    D3,
+    FORE,
+    OFFSET,
+    REST,
+    UPPER,
+    Floats,
+    X,
+    Y,
+    Z,
+    excess,
+    near,
+    serves,
+    tracks,
+    usable,
+)
 
 MINUS = str.maketrans("-", "\N{MINUS SIGN}")
 SPEED = 100 * mm
@@ -19,26 +34,13 @@ def pose(x: float, y: float, z: float) -> Transform:
     return Transform(Quaternion.from_angle_axis(90 * deg, Y), np.array([x, y, z]) * mm)
 
 
-# the line of the lab's first picture, and the via point of its last section
+# the line of section 6 of the lab, and a via point
 START, GOAL, VIA = pose(550, 600, 800), pose(550, -200, 1100), pose(600, -100, 1000)
 
 
 def nearest(value: float, guesses: Mapping[str, float]) -> str:
     """The name of the guess that is closest to a value."""
     return min(guesses, key=lambda name: abs(guesses[name] - value))
-
-
-def forearm(q3: float) -> Floats:
-    """The direction of the forearm if the upper arm is level and joint 3 is at q3 degrees."""
-    frames = PUMA560.frames(np.array([0, 0, q3, 0, 0, 0]) * deg).translation
-    return np.asarray((frames[4] - frames[3]) / np.linalg.norm(frames[4] - frames[3]))
-
-
-@cache
-def p1() -> dict[str, Any]:
-    inside = [q3 for q3 in range(-225, 46, 45) if forearm(q3)[2] < -0.999]
-    down = inside[0]
-    return {"right": "straight down", "down": down, "other": down + 360, "level": down // 2}
 
 
 def waists(rho: float) -> Floats:
@@ -55,17 +57,23 @@ def p2() -> dict[str, Any]:
     return {"right": nearest(turn, guesses), "rho": 2 * D3 / mm, "turn": turn, "one": one}
 
 
+NAMED = (0, 100, -20, 0, 30, 0)  # the posture of p9, degrees
+
+
 @cache
-def p3() -> dict[str, Any]:
-    rows = PUMA560.ik(START)
-    moved = np.flatnonzero(abs(np.sin((rows[2] - rows[0]) / 2)) > 1e-6) + 1
-    answers = {"joint 3 alone": [3], "joints 2 and 3": [2, 3], "joints 2 to 6": [2, 3, 4, 5, 6]}
-    answers["all six"] = [1, 2, 3, 4, 5, 6]
-    values = {
-        f"row{k}": ", ".join(f"{x / deg:.1f}" for x in rows[k]).translate(MINUS) for k in (0, 2)
+def p9() -> dict[str, Any]:
+    """The name is that of the row of `ik` with the same first five joints, up to whole turns."""
+    q = np.array(NAMED) * deg
+    off = np.sin((PUMA560.ik(PUMA560.fk(q)) - q) / 2)[:, :5]
+    front, elbow, wrist = PUMA560.branches[int(abs(off).max(axis=-1).argmin())]
+    side, height = "RIGHTY" if front > 0 else "LEFTY", "ABOVE" if front * elbow < 0 else "BELOW"
+    gamma = q[2] + OFFSET
+    return {
+        "right": f"{side} {height} {'NOFLIP' if wrist > 0 else 'FLIP'}",
+        "q": str(NAMED).translate(MINUS),
+        "r": f"{(UPPER * np.cos(q[1]) + FORE * np.cos(q[1] + gamma)) / mm:.0f}".translate(MINUS),
+        "gamma": gamma / deg,
     }
-    right = next(name for name, joints in answers.items() if joints == moved.tolist())
-    return {"right": right, **values}
 
 
 def random_poses(rng: np.random.Generator, shape: tuple[int, ...]) -> Transform:
@@ -94,10 +102,13 @@ def p4() -> dict[str, Any]:
     return facts | {"right": nearest(shares[0], guesses)}
 
 
+NEAR = [0, 60, -93, 0, 6, 0], [0, 60, -170, 0, 0.6, 0]  # postures A and B, degrees
+
+
 @cache
 def p5() -> dict[str, Any]:
     facts: dict[str, Any] = {}
-    for name, q_deg in (("both", [0, 60, -93, 0, 6, 0]), ("one", [0, 60, -170, 0, 0.6, 0])):
+    for name, q_deg in zip(("both", "one"), NEAR, strict=True):
         q = np.array(q_deg) * deg
         facts[f"det_{name}"] = 1e4 * abs(float(np.linalg.det(PUMA560.jacobian(q))))
         facts[f"sigma_{name}"] = float(near(q))
@@ -108,9 +119,9 @@ def p5() -> dict[str, Any]:
 
 
 def stretched(m: float) -> Transform:
-    far = (UPPER + FORE - m) ** 2 - (600 * mm - 671.83 * mm) ** 2 + D3**2
+    far = (UPPER + FORE) ** 2 - (600 * mm - 671.83 * mm) ** 2 + D3**2
     down = Quaternion.from_angle_axis(180 * deg, X)
-    return Transform(down, np.array([np.sqrt(far), 0, 600 * mm]))
+    return Transform(down, np.array([np.sqrt(far) - m, 0, 600 * mm]))
 
 
 def aligned(m: float) -> Transform:
