@@ -29,8 +29,8 @@ LAB = "irb140_motion"
 P1, P2 = f"{LAB}.p1", f"{LAB}.p2"
 OTHER = "scara_motion.p1"
 TYPED = next(f"{LAB}.{n}" for n, p in hub.lab(LAB).predictions.items() if p.unit)
-KEPT = "Kept for your report."
-RUN = "Kept in this browser only. Run > Run All Cells, and it is kept for your report."
+KEPT = "Saved for your report."
+RUN = "Saved in this browser only. Run > Run All Cells saves it for your report."
 
 
 def at(second):
@@ -386,10 +386,10 @@ def test_each_guess_goes_to_the_kernel_of_its_notebook(page):
     answer(two, "b")
     answer(other, "c")
     assert made_in(page) == [[kept_as(P1, "b")], [kept_as(P1, "a")], []]
-    expect(told(two)).to_have_text("Python keeps it for your report as soon as it answers.")
+    expect(told(two)).to_have_text("Python will save it for your report as soon as it answers.")
     page.evaluate("() => { hear[0]({n: 1}); hear[1]({n: 1, error: 'the disk is full'}); }")
     expect(told(two)).to_have_text(KEPT)
-    expect(told(one)).to_have_text("Kept on this page only: the disk is full.")
+    expect(told(one)).to_have_text("Saved on this page only: the disk is full.")
     expect(told(other)).to_have_text(RUN.replace("in this browser", "on this page"))
     copies = [each.get_by_role("button", name="Copy my").count() for each in (one, two, other)]
     assert copies == [1, 0, 1], "only guesses that are not saved need the button"

@@ -185,7 +185,7 @@ def test_rotor_can_be_dragged_and_pulses_continue(opened):
     shown.type("load torque", 30)  # mN m, more than the holding torque of 20 mN m
     shown.look()
     assert state.inner_text() == "This row does not hold the load."
-    assert "The load runs back" in shown.look().says
+    assert "The load slips back" in shown.look().says
 
 
 def test_page_works_offline_and_axe_finds_no_problems(browser, opened):

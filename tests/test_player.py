@@ -366,7 +366,7 @@ def test_samples_past_a_limit_are_counted(motions):
     when = f"from {T[-over]:.2f} to 20.00 s"
     assert note == f"q2 is past its limit in {over} of 2001 samples, {when}, by up to {most:.1f}°."
     fast = animate(IRB140, T / 25, motions[1]).data["arms"][0]["notes"]["0"]
-    assert any("past its speed limit" in note for note in fast)
+    assert any("exceeds its speed limit" in note for note in fast)
 
 
 @pytest.mark.parametrize(
@@ -866,7 +866,7 @@ def test_titles_and_names_are_plain_text(motions):
         ({"switch": ("corner", ["one"])}, ValueError, "at least two strings"),
         ({"switch": ("corner", [1, 2])}, ValueError, "switch: wanted a string"),
         ({"switch": ("corner", ["one", "two"])}, ValueError, r"wanted shape \(2, 2001, 6\)"),
-        ({"names": ["x"]}, ValueError, "names: wanted only with a list"),
+        ({"names": ["x"]}, ValueError, "names: allowed only with a list"),
         ({"arm": [IRB140, IRB140]}, ValueError, "one array for each of 2 arms"),
         (
             {"arm": [IRB140], "q": [np.zeros((2001, 6))], "names": ["a", "b"]},
@@ -897,7 +897,7 @@ def test_errors_name_the_wrong_argument_and_what_is_wanted(change, kind, message
 def test_invalid_recordings_are_refused(motions):
     one = record(IRB140, T, motions[1])
     for wrong, message in (
-        (lambda: animate(one, T), "not wanted with recordings"),
+        (lambda: animate(one, T), "not allowed with recordings"),
         (lambda: animate(one, slider=("x", [1, 2])), r"wanted shape \(2, 2001, 6\)"),
         (lambda: animate(record(IRB140, T[:2], motions[1, :2])), "at least three times"),
         (lambda: animate([one, record(IRB140, 2 * T, motions[1])]), "the same times"),

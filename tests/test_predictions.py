@@ -106,7 +106,7 @@ def test_every_option_can_be_chosen_and_gets_a_reply(opened, k, width):
     after = seen(page)
     assert REASON in after and "view opens" in after and "It has two lines." in after
     option = asked.options[k]
-    assert option.reason in after and "Kept in this browser only." in after
+    assert option.reason in after and "Saved in this browser only." in after
     assert "predict(" not in after, "no advice to edit a folded cell"
     assert ("No: " in after) == (k != 1) and ("Right." in after) == (k == 1)
     if k != 1:
@@ -164,7 +164,7 @@ def test_page_remembers_and_forgets_choices(opened, browser):
     assert "You guessed here before" not in seen(page)
     again = opened(asked, within=context)
     assert "No: in proportion." in seen(again) and "view opens" in seen(again)
-    assert "You guessed here before. Kept in this browser only." in seen(again)
+    assert "You guessed here before. Saved in this browser only." in seen(again)
     again.get_by_role("button", name="Ask me again").click()
     again.get_by_label("b)").check()
     guess(again).click()
@@ -185,7 +185,7 @@ def test_page_works_when_storage_is_forbidden(opened, browser):
     page = opened(Asked("made.p1", words(), None), within=context)
     page.get_by_label("b)").check()
     guess(page).click()
-    assert REASON in seen(page) and "Kept on this page only." in seen(page)
+    assert REASON in seen(page) and "Saved on this page only." in seen(page)
 
 
 def test_question_can_occur_twice_in_a_page(opened):

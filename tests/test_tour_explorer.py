@@ -188,7 +188,7 @@ def test_in_a_file_only_the_clock_works(browser, tmp_path):
     tour_explorer(CIRCLE).save(tmp_path / "tour.html")
     page = opened(browser, 390)
     page.goto(f"file://{tmp_path}/tour.html")
-    page.locator(".rk-asleep", has_text="Asleep").wait_for()
+    page.locator(".rk-asleep", has_text="Inactive").wait_for()
     assert page.evaluate("document.documentElement.scrollWidth") <= 390
     greedy, best = visit(CIRCLE), best_visit(CIRCLE)
     assert [row[1:] for row in cells(page)] == [

@@ -59,14 +59,16 @@ def motion_explorer(
     law: Law = "quintic",
     duration: float = 5.0,
 ) -> "Explorer":
-    """Show a blended motion past `via`: start, via and goal with rings and arrows to drag, sliders
-    for the via point, the blend and the duration, menus for the time law, the corner and the
-    branch. The arm, the curves and the numbers follow; the motion can be played, and a click on a
-    curve sets the clock. The explorer opens with the time law `law` and a `duration` in seconds, on
-    branch `row`, by default the first of those with the most usable samples.
+    """Show a blended motion past the via point `via`. The reader can drag start, via point and goal
+    with rings and arrows, move the via point and set the blend and the duration with sliders, and
+    choose the time law, the corner and the branch from menus. The arm, the curves and the numbers
+    follow. The motion can be played, and a click on a curve sets the clock. The explorer opens with
+    the time law `law`, a `duration` in seconds, and the branch `row`, by default the first of those
+    with the most usable samples.
 
-    The poses are single targets of `arm.ik` (Transform, or ScaraPose for a SCARA). ValueError: a
-    batch of poses, or an unknown row. TypeError: poses of another type, or an arm without `ik`.
+    The poses are single targets of `arm.ik` (Transform, or ScaraPose for a SCARA). Raises
+    ValueError if they are batches of poses, or if there is no such row. Raises TypeError if the
+    poses are of another type, or if the arm has no `ik`.
     """
     inverted(arm)
     kind = ScaraPose if arm.target is ScaraPose else Transform
@@ -133,7 +135,7 @@ def motion_explorer(
 def _summary(
     arm: ClosedFormArm, pose: Callable[[Floats], Pose], t: Floats, q: Floats, row: int
 ) -> str:
-    """The motion and its greatest speed in one sentence."""
+    """Describe the motion and its greatest speed in one sentence."""
     speed, j, of = _fastest(arm, pose, t, q)
     return (
         f"{arm.name} on a blended motion past a via point that can be moved, {t[-1]:g} s, "
@@ -143,7 +145,7 @@ def _summary(
 
 
 def _seconds(duration: float) -> float:
-    """Return a valid duration."""
+    """Return the duration as a float. Raises ValueError if it is too short or too long."""
     wanted = f"from {SHORTEST:g} to {LONGEST:g} s"
     seconds = positive(duration, "duration", wanted)
     if not SHORTEST <= seconds <= LONGEST:
@@ -152,7 +154,7 @@ def _seconds(duration: float) -> float:
 
 
 def _controls(arm: ClosedFormArm) -> list[Control]:
-    """The sliders: the via point, the blend and the duration."""
+    """Return the sliders of the via point, the blend and the duration."""
     unit, size = length_unit(extent(arm))
     most = float(np.ceil(1.05 * extent(arm) / (50 * mm)) * 50 * mm / size)
     step = 1 if size == mm else 0.001
@@ -166,9 +168,9 @@ def _controls(arm: ClosedFormArm) -> list[Control]:
 def _fastest(
     arm: ClosedFormArm, pose: Callable[[Floats], Pose], t: Floats, q: Floats
 ) -> tuple[float, int, str]:
-    """The greatest speed of a motion with the samples q (samples, n), in the joint's unit; its
-    joint; and a qualification: "" if it includes the values between the samples, because the motion
-    is complete and passes no singularity.
+    """Return the greatest speed of a motion with the samples q (samples, n), in the joint's unit;
+    the joint; and a qualification. The qualification is "" if the speed includes the values between
+    the samples, because the motion is complete and passes no singularity.
     """
     scale, h, track = sizes(arm), 1e-7 * t[-1], record(arm, t, q)
 

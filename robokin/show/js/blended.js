@@ -1,4 +1,4 @@
-// A blended motion, with the data of its curves and sentences.
+// A blended motion, with the data for its curves and sentences.
 
 import {follow, onward} from "./branches.js";
 import {ik, singularities} from "./geometries.js";
@@ -15,9 +15,10 @@ import {record} from "./recorded.js";
 const LAWS = {quintic, trapezoidal, linear};
 
 /**
- * The motion for the current settings: the findings of `record`, times, joint values, positions
- * of the tool, the distance from via; the samples after which its curves break, the pose at a time,
- * and the times at which an acceleration may jump.
+ * Computes the motion for the current settings: the findings of `record`, the times, the joint
+ * values, the positions of the tool, the distance from the via point, the samples after which the
+ * curves break, a function that returns the pose at a time, and the times at which an acceleration
+ * may jump.
  * @param {MotionData} data
  * @param {Asked} state
  */
@@ -52,8 +53,8 @@ export function motionOf(data, state) {
 }
 
 /**
- * The greatest speeds and accelerations, including those between the samples; null if the motion is
- * broken or passes a singularity, or if one of them does not converge.
+ * The greatest speeds and accelerations, including those between the samples. The result is null if
+ * the motion is broken or passes a singularity, or if the search for one of them does not converge.
  * @param {MotionData} data
  * @param {Motion} motion
  * @param {number[][]} sampled
@@ -61,7 +62,7 @@ export function motionOf(data, state) {
 export function topsOf({arm, units, samples}, {t, q, missing, gaps, poseAt, times}, sampled) {
   if (gaps.size || missing[0]) return null;
   const step = t[1];
-  // a posture, with NaN at a singularity, where free joints may have any value
+  // the posture; NaN at a singularity, where free joints may have any value
   /** @type {(x: number) => number[]} */
   const posture = x => {
     const near = q[Math.min(Math.round(x / step), samples - 1)],
@@ -77,7 +78,7 @@ export function topsOf({arm, units, samples}, {t, q, missing, gaps, poseAt, time
 }
 
 /**
- * The greatest absolute value of joint j, NaN if there is none.
+ * The greatest absolute value of joint j; NaN if there is none.
  * @type {(rows: number[][], j: number) => number}
  */
 export const most = (rows, j) =>
@@ -90,8 +91,8 @@ export const most = (rows, j) =>
 export const nearDecimals = unit => (unit.size < 1 ? 1 : 3);
 
 /**
- * The distance of the path from the via station in the unit shown, also between the samples.
- * Infinity if there is no path.
+ * The distance of the path from the via point in the unit shown, also between the samples; Infinity
+ * if there is no path.
  * @param {MotionData} data
  * @param {PagePose} via
  * @param {(x: number) => PagePose} poseAt
@@ -105,7 +106,7 @@ function passing({unit}, via, poseAt, t, missing) {
     far = places.map(place => apart(place, via.place));
   const steps = far.flatMap((_, i) => (i && !missing[i] && !missing[i - 1] ? [i] : []));
   let least = Math.min(...steps.flatMap(i => [far[i - 1], far[i]]));
-  // only these steps are long enough for the path to come nearer to via than at the samples
+  // only in these steps can the path come nearer to the via point than at the samples
   for (const i of steps.filter(
     k => Math.min(far[k - 1], far[k]) - apart(places[k], places[k - 1]) < least,
   )) {

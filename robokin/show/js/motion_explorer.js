@@ -31,12 +31,13 @@ import {frame} from "./target.js";
 /** @typedef {Stations & StartValues} Asked */
 /** @typedef {Asked & {time: number, playing: boolean}} State  `time` in seconds */
 /**
- * The greatest speeds and accelerations of a motion, including those between the samples if `sure`.
+ * The greatest speeds and accelerations of a motion. If `sure`, they include those between the
+ * samples.
  * @typedef {{sure: boolean, values: number[][]}} Tops
  */
 
 /**
- * Builds the view in every element that waits for this id.
+ * Builds the view in every placeholder with this id.
  * @param {string} id
  * @param {MotionData} data
  */
@@ -137,8 +138,8 @@ function inputsOf(stage, {words, unit, controls, laws, corners, branches}, state
 }
 
 /**
- * Returns a function that says whether the reader is dragging something. Then only the samples
- * count, since values between them take too long to compute.
+ * Returns a function that says whether the reader is dragging something. During a drag, only the
+ * samples count, since values between them take too long to compute.
  * @param {Stage} stage
  */
 function holding(stage) {
@@ -160,8 +161,8 @@ function holding(stage) {
 }
 
 /**
- * now(): the motion for the current settings, computed again if they have changed; tops(held): its
- * greatest speeds and accelerations.
+ * `now()` returns the motion for the current settings, and computes it again if they have changed.
+ * `tops(held)` returns its greatest speeds and accelerations.
  * @param {MotionData} data
  * @param {State} state
  */
@@ -226,7 +227,7 @@ const poseOf = ({rotation, angle = 0, place}) =>
   matrix(rotation || [Math.cos(angle / 2), 0, 0, Math.sin(angle / 2)], place);
 
 /**
- * The arm at sample i; if there is no posture, the last one before it, faded.
+ * The arm at sample i. If there is no posture, the last posture before i is shown faded.
  * @param {MotionData} data
  * @param {Motion} motion
  * @param {number} i
