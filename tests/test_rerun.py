@@ -45,7 +45,7 @@ def test_failing_values_and_hard_coded_numbers_are_detected(tmp_path):
     assert faults("a = 1  # try 2, 3", FIGURE.format(alt='f"Up to {a}, q1 and axis 2"')) == (2, [])
     count, [two, three] = faults("a = 1  # try 2, 3", FIGURE.format(alt='"Up to 1"'))
     assert count == 2 and "a = 3: [2] has 'Up to 1' typed in: 'Up to 1'" in three
-    # this cell does not depend on the value, so its text need not change
+    # this cell does not depend on the value, so its text does not have to change
     assert faults("a = 1\nc = 1  # try 2", FIGURE.format(alt='"Up to 1"')) == (1, [])
     count, [fault] = faults("a = 1  # try 0, 5", "print(1 / a)", "b = 1")
     assert count == 2 and "a = 0: cell 2: ZeroDivisionError" in fault

@@ -30,7 +30,7 @@ def prose(path):
 
 
 def table(source):
-    """(row, what, where, names) for each line of a companion's table."""
+    """A tuple (row, what, where, names) for each line of a companion's table."""
     text = prose(COMPANIONS[f"00{source[1]}"])
     lines = re.findall(rf"^\| ({source}-\d\d) \|(.*)\|$", text, re.M)
     return [(row, *(part.strip() for part in rest.split(" | "))) for row, rest in lines]

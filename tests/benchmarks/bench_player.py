@@ -104,7 +104,7 @@ def jshtml(t, q):
 
 
 def player(t, q):
-    """The median build time (s) of five players, and the size (bytes)."""
+    """The median build time (s) of five players, and the size (bytes) of a player."""
     times = []
     for _ in range(5):
         begin = time.perf_counter()
