@@ -56,7 +56,7 @@ def walked(page):
     found, end = {}, False
     for place in range(400):
         scroller.evaluate("(panel, top) => { panel.scrollTop = top; }", 400 * place)
-        page.wait_for_timeout(250)  # a view starts half a screen before it is seen
+        page.wait_for_timeout(250)  # a view starts when it is half a screen away
         for view in sizes(page):
             found[view["kind"], view["title"]] = view
         if end:

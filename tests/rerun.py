@@ -59,7 +59,8 @@ class Cell:
             reads, writes = _globals(compile(ast.Module([statement], []), "cell", "exec"))
             self.reads |= reads - sure
             self.writes |= writes
-            sure |= writes if isinstance(statement, SETS) else set()  # others do not always run
+            # other statements do not always run
+            sure |= writes if isinstance(statement, SETS) else set()
         for node in ast.walk(tree):
             if isinstance(node, ast.Attribute) or (
                 isinstance(node, ast.Subscript) and isinstance(node.ctx, ast.Store)
@@ -218,11 +219,11 @@ def _again(lab: Run, order: list[int], shown: list["Shown"]) -> list[str]:
         try:
             text = lab.run(k).text
         except Exception as error:
-            wrong.append(f"[{k + 1}] again: {type(error).__name__}: {error}")
+            wrong.append(f"[{k + 1}] on a later run: {type(error).__name__}: {error}")
             continue
         if text != shown[k].text:
             a, b = _differ(shown[k].text, text)
-            wrong.append(f"[{k + 1}] again: {b!r} in place of {a!r}")
+            wrong.append(f"[{k + 1}] printed {b!r} on a later run and {a!r} on the first")
     return wrong
 
 
@@ -231,7 +232,7 @@ def _told(lab: Run, shown: list["Shown"], name: str, report) -> list[str]:
     if isinstance(report, str):
         return [f"{name}: {report}"]
     return [
-        f"{name}: [{n + 1}] has {part!r} typed in: {word!r}"
+        f"{name}: [{n + 1}] has the hard-coded text {part!r} in {word!r}"
         for n, words, drawn in report
         if drawn != shown[n].drawn
         for word in words

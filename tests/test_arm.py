@@ -208,9 +208,9 @@ def test_dh_table_of_a_scara_gives_its_forward_kinematics():
 
 
 def test_craig_table_of_the_puma_gives_fk_and_ik():
-    """The table is Craig, Introduction to Robotics, figure 3.21 (link parameters of the PUMA 560),
-    with the catalogue's lengths. Craig's joints 1 and 2 differ from the catalogue's by half a turn
-    (his axis 2 points the other way), and his base is at the shoulder; the flange is the same.
+    """The table is from Craig, Introduction to Robotics, figure 3.21 (link parameters of the PUMA
+    560), with the catalogue's lengths. Craig's joints 1 and 2 differ from the catalogue's by half a
+    turn (his axis 2 points the other way), and his base is at the shoulder; the flange is the same.
     """
     half = 180 * deg
     links = dh_links(
@@ -349,7 +349,7 @@ def test_limits_and_speeds_match_the_published_values(name):
 
 
 def test_arms_with_equal_parts_are_not_equal():
-    """Arms, links and poses are compared by identity, because the comparison of two arrays is not a
+    """Arms, links and poses are compared by identity, because comparing two arrays does not give a
     single truth value.
     """
     for a, b in (

@@ -515,7 +515,7 @@ def test_explain_agrees_with_ik_and_within(machine):
     assert {(True, False), (False, True)} <= seen
 
 
-# wrong calls
+# invalid calls
 # --------------------------------------------------------------------------------------------------
 
 ROWS = IRB140.ik(IRB140.fk(np.full((4, 6), 0.2)))
@@ -567,7 +567,7 @@ def test_follow_keeps_a_blend_on_one_row():
         assert abs(np.diff(path, axis=0)).max() < 0.05
 
 
-# joint values for people to read
+# joint values for display
 # --------------------------------------------------------------------------------------------------
 
 

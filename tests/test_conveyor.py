@@ -222,8 +222,8 @@ def test_number_of_arms_needed_is_at_least_the_lower_bound():
 
 
 def test_uneven_spacing_makes_an_arm_miss_objects():
-    """At 120 mm/s one arm picks all evenly spaced objects, but it misses more as the gaps differ
-    more.
+    """At 120 mm/s one arm picks all evenly spaced objects. The more the gaps differ, the more
+    objects it misses.
     """
     lost = [
         np.mean(

@@ -43,7 +43,7 @@ def _own_trust(tmp_path, monkeypatch):
 
 
 def notebook(text, shown="still"):
-    """A small lab that says `text`; `shown` is the output of its player."""
+    """A small lab that contains `text`; `shown` is the output of its player."""
     html = {"text/html": [f"<script>{shown}</script>"], "text/plain": ["player"]}
     output = {"output_type": "display_data", "data": html, "metadata": {}}
     cells = [
@@ -390,7 +390,7 @@ class History:
                 assert not same, f"{path} was deleted, but the same version was restored"
                 if said(path, here) == says:
                     self.untouched.add(path)
-                else:  # restored after a killed copy; the student has since deleted theirs
+                else:  # restored after a killed copy; the student has since deleted the file
                     assert "unsure" in laid_before[path] and b"student" in here
                     self.mine.append([path, here])
             for side in sides:

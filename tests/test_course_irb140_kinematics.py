@@ -41,7 +41,7 @@ def by_chain(q, length, turn):
 
 
 def by_joint_6(q, length, turn):
-    "A rotation about the flange's z axis only changes joint 6."
+    "A program that uses the fact that a rotation about the flange's z axis changes only joint 6."
     more = q.copy()
     more[5] += turn
     flange = IRB140.fk(more)

@@ -155,7 +155,7 @@ def of_the_solution(name):
 
 @pytest.mark.parametrize("name", CATCHES)
 def test_no_test_passes_by_a_trick(name, monkeypatch):
-    """The tricks: counting calls, ignoring errors, returning nothing, never returning False."""
+    """The tricks are: counting calls, ignoring errors, returning nothing, never returning False."""
     right = of_the_solution(name)
     exercise = book.find(name, "exercises")
     many = len(exercise.rights) + len(exercise.wrongs) + 1

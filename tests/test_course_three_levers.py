@@ -277,8 +277,8 @@ def first_and_last_angle(program):
 
 
 def test_test_must_start_from_different_postures():
-    """A second check gives the same verdict, since each check makes new copies of the programs that
-    have a state.
+    """A second check gives the same verdict, since each check makes new copies of the stateful
+    programs.
     """
     arm, rng = three_lever(1.0), np.random.default_rng(5)
     places = rng.uniform(1.2, 2.8, 100)[:, None] * [np.cos(0.8), np.sin(0.8)]

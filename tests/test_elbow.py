@@ -43,7 +43,7 @@ def test_ik_returns_every_solution_in_its_row(case):
         np.testing.assert_allclose(
             arm.fk(solution["q"]).as_matrix(), solution["T"], rtol=0, atol=1e-9
         )
-    # The front rows face the point and the back rows face away from it. The two elbow rows lie on
+    # The front rows face the point and the back rows face away from it. The two elbow rows are on
     # opposite sides of the stretched arm.
     heading = np.array(case["p"])[:2] @ [np.cos(rows[:, 0]), np.sin(rows[:, 0])]
     if not case["singular"]["axis"]:

@@ -204,7 +204,7 @@ def test_unchanged_inputs_are_not_reported(given):
 
 
 class Gauge:
-    """A class whose instances == does not compare by value."""
+    """A class without __eq__: instances with equal values are not equal."""
 
     def __init__(self, value):
         self.value = value

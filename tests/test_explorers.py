@@ -346,7 +346,8 @@ def shows_every_branch(shown, exact=True):
         np.array([[np.nan if x == "\u2013" else float(x) for x in row] for row in cells]) * units
     )
     near = distance_from_singularity(arm, rows)
-    # Near a singularity, three decimals of a degree in the copied code are less accurate.
+    # Near a singularity, rounding to three decimals of a degree in the copied code has a larger
+    # effect.
     fine = (
         0.0505 if exact else 0.0505 + 0.005 / np.maximum(np.nan_to_num(near, nan=1), 1e-3)[:, None]
     )
@@ -699,7 +700,7 @@ def test_motion_explorer_uses_the_via_point_in_the_number_boxes(opened, arm):
         change()
         looks.append(shows_the_motion(shown))
         assert looks[-1].seen.code != looks[-2].seen.code, "nothing changed"
-        assert looks[-1].seen.pixels[1] != looks[-2].seen.pixels[1], "the curves are frozen"
+        assert looks[-1].seen.pixels[1] != looks[-2].seen.pixels[1], "the curves do not change"
 
 
 def test_unreachable_via_point_leaves_a_gap_with_a_message(opened):
@@ -917,7 +918,7 @@ def test_explorer_recovers_from_a_drag_out_of_reach_or_through_a_singularity(ope
             assert arm is FLAT or _color(shown, now.seen.handles["free"]["at"]) != hub
 
     out = [start + (way, way / 2) for way in (0, 30, 60, 120, 200, 300)]
-    across = [start + (-way, 0) for way in (15, 35, 45, 60)]  # across axis 1 and beyond
+    across = [start + (-way, 0) for way in (15, 35, 45, 60)]  # across axis 1
     shown.drag("free", *out, *out[::-1], *across, start, each=each)
     assert kinds[0] and kinds[-1], "the drag does not begin and end within reach"
     assert not all(kinds), "the drag never goes out of reach"

@@ -190,7 +190,7 @@ def test_unknown_predictions_and_notebooks_are_left_out(tmp_path):
     assert chosen(lab) == {P1: ["b", "e", "c"]}
 
 
-def test_full_file_is_read_quickly(tmp_path):
+def test_large_file_of_guesses_is_read_quickly(tmp_path):
     names = {f"{k}.ipynb": {f"{LAB}.p{k % 900}": []} for k in range(20_000)}
     written(tmp_path, json.dumps({"guesses": 1, "notebooks": names}))
     lab = notebook(tmp_path / "lab.ipynb", "predict('" + "x" * 3_000_000, ids=[P1])

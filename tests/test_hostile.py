@@ -221,7 +221,7 @@ def values(url):
 
 
 def attacking(url):
-    """A notebook with every attack value in every place."""
+    """A notebook that contains every attack value in every possible place."""
     cells = []
     for value in values(url):
         outputs = [

@@ -222,7 +222,7 @@ def test_show_without_matplotlib_says_what_to_install():
     ), run.stderr
 
 
-def test_package_alone_saves_a_page_in_eight_lines(tmp_path):
+def test_eight_lines_of_the_readme_save_a_page(tmp_path):
     section = README.split("## The package alone\n")[1].split("\n## ")[0]
     (code,) = re.findall(r"^```python\n(.*?)^```", section, re.M | re.S)
     assert len([line for line in code.splitlines() if line]) == 8

@@ -1,4 +1,4 @@
-"""The curves that a notebook shows for `plot_joints`: their numbers are those of the figure."""
+"""The curves that a notebook shows for `plot_joints`, compared with the motion and the figure."""
 
 import json
 import re

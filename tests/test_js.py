@@ -72,7 +72,7 @@ def scanned():
 
 
 def test_functions_and_files_are_short():
-    """A function has at most 60 lines, including inner functions; a script at most 350."""
+    """A function has at most 60 lines, including inner functions, and a script at most 350."""
     functions = [
         (path.name, name, first, count)
         for path, found in scanned().items()

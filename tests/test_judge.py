@@ -36,7 +36,7 @@ IMPORTS = "from robokin.course import check, predict, variant\nimport numpy as n
 # --- Points for answers ---------------------------------------------------------------------------
 
 
-def test_answers_that_are_missing_or_raise_or_never_end_are_judged(tmp_path):
+def test_answers_that_are_missing_raise_an_error_or_never_end_are_judged(tmp_path):
     lab = stored(
         tmp_path / "03_irb140_motion Ada.ipynb",
         IMPORTS,

@@ -105,8 +105,8 @@ def test_alpha_keeps_its_value_on_the_axis():
 
 
 def test_gamma_can_reach_270_degrees():
-    """If the outer lever is longer than the inner one, the inner one can point down and back, so
-    that gamma is up to 270 degrees.
+    """If the outer lever is longer than the inner one, the inner one can point down and back, and
+    gamma can be as large as 270 degrees.
     """
     arm, alpha = loader_arm(1.0, 2.0), 0.3
     gamma, beta = np.meshgrid([-30, 1, 89, 179, 181, 269, 269.9], [0.03, 0.3, 20, 70, 150])

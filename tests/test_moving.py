@@ -21,8 +21,8 @@ TASKS = int(os.environ.get("ROBOKIN_TASKS", 40))
 
 
 def least_on_the_way(path, times, H, v, samples=2001):
-    """The least distance from the point H + v t to any lever, of shape (parts,), for every part of
-    the path.
+    """For every part of the path, the least distance from the point H + v t to any lever: an array
+    of shape (parts,).
     """
     s, found = np.linspace(0, 1, samples), []
     for a, b, begin, end in zip(path, path[1:], times, times[1:], strict=False):

@@ -161,8 +161,8 @@ def test_cells_are_plain_python_and_import_only_installed_packages(code):
 
 
 def test_names_in_code_are_ascii(code):
-    # A Cyrillic letter that looks Latin makes a different name, and an invisible character cannot
-    # be found.
+    # A Cyrillic letter that looks Latin makes a different name, and invisible characters are hard
+    # to find.
     for cell in code:
         for token in tokenize.generate_tokens(io.StringIO(cell.source).readline):
             assert (
@@ -221,7 +221,7 @@ def test_labs_do_not_exceed_the_size_limits(lab):
 
 
 @every_lab
-def test_labs_open_with_a_view_that_moves(lab):
+def test_labs_open_with_a_view(lab):
     """A lab opens with a title and a claim, a folded set-up cell, and a cell of at most three lines
     that shows a view.
     """

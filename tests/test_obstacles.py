@@ -153,7 +153,7 @@ def test_clearance_and_via_points_match_the_reference_cases(case):
         )
 
 
-def test_via_points_lie_at_right_angles_and_on_the_side_of_the_base():
+def test_via_points_are_at_right_angles_and_on_the_side_of_the_base():
     """Seen from the obstacle, a via point is at right angles to its end of the path. Errata S3-m:
     the printed formulas give (1.556, 1.131) and (1.429, 0.876) here; neither is at right angles,
     and one is on the wrong side.
@@ -408,7 +408,7 @@ def test_plans_past_two_obstacles_keep_clear_of_both(two_drawn):
     assert {"via points", "search", "none"} <= set(ways) and differs > 3
 
 
-def test_via_points_lie_around_the_first_obstacle_in_the_way(two_drawn):
+def test_via_points_are_around_the_first_obstacle_in_the_way(two_drawn):
     """The obstacle is identified from the gripper's positions and compared with the text."""
     count = 0
     for q0, K1, H in two_drawn:
@@ -518,8 +518,8 @@ def test_plan_text_names_the_nearest_lever(answers):
 
 
 def test_search_path_cannot_be_shortened_by_simple_changes(answers):
-    """No simple change shortens a path: to omit a via posture, to move a via posture towards its
-    neighbours, or to end at a nearer posture.
+    """No simple change shortens a path, such as omitting a via posture, moving a via posture
+    towards its neighbours, or ending at a nearer posture.
     """
     searched = [(H, K1, p.path) for _, K1, H, p in answers if p.way == "search"]
     nearer = [is_taut(path, K1, H, KEPT) for H, K1, path in searched]

@@ -131,9 +131,8 @@ def test_family_reaches_its_point_over_its_whole_range(shape):
     np.testing.assert_allclose(q[..., 0, 1], np.pi, atol=1e-7)  # beta at alpha_min
     assert (np.diff(q[..., 0], axis=-1) > 0).all()  # gamma only increases
     assert np.isnan(arm.family(K, low - 1e-6)).all() and np.isnan(arm.family(K, high + 1e-6)).all()
-    for i in np.ndindex(
-        *shape
-    ):  # a point with three coordinates and a Transform give the same result
+    # a point with three coordinates and a Transform give the same result
+    for i in np.ndindex(*shape):
         point = np.append(K[i], 0.0)
         for same in (point, Transform(translation=point)):
             np.testing.assert_array_equal(arm.family(same, alpha[i]), q[i])

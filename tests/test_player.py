@@ -759,7 +759,7 @@ def test_data_cannot_end_the_script(motions):
     assert json.loads(player.text)["title"] == "</script><b>"
 
 
-# --- Saving and wrong calls -----------------------------------------------------------------------
+# --- Saving and invalid calls ---------------------------------------------------------------------
 
 
 def test_save_writes_one_page_and_keeps_other_files(tmp_path, blended):
@@ -1130,8 +1130,8 @@ def test_page_without_scripts_shows_the_still_picture(browser, blended, tmp_path
 
 
 def test_marks_move_on_the_page(page, motions, tmp_path):
-    """The arm rests; only the mark changes with time and slider, and it is missing
-    where it is NaN.
+    """The arm does not move; only the mark changes with time and slider, and it is missing where it
+    is NaN.
     """
     q = np.broadcast_to(motions[1, 0], (2, 2001, 6))
     path = np.stack([CIRCLING, CIRCLING + [0, 0, 0.2]])
@@ -1161,8 +1161,8 @@ def test_marks_move_on_the_page(page, motions, tmp_path):
 
 
 def test_arms_on_bases_are_drawn_separately_and_readings_change(page, tmp_path):
-    """Two arms rest; the test checks where they and their points are drawn, and when the readings
-    change.
+    """Two arms do not move; the test checks where they and their points are drawn, and when the
+    readings change.
     """
     arm, t = spbu_arm(0.5, 0.4), np.linspace(0, 4, 41)
     q = np.broadcast_to([0.2, 0.4, 0.3], (41, 3))

@@ -77,7 +77,7 @@ def law_of_listing_1(t, total=20.0):
 
 
 def curves(ax):
-    """The joint curves of a panel: name -> (samples, 2)."""
+    """The joint curves of a panel: a dict that maps names to arrays (samples, 2)."""
     return {
         line.get_label(): np.column_stack(line.get_data())
         for line in ax.lines

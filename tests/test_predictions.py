@@ -392,7 +392,7 @@ def test_untrusted_question_in_jupyterlab_explains_how_to_answer(jupyter, page):
 
 
 @pytest.mark.parametrize("lab", ["02_irb140_kinematics", "03_irb140_motion"])
-def test_exported_lab_asks_its_questions_on_a_phone(browser, exported, lab):
+def test_questions_of_an_exported_lab_work_on_a_phone(browser, exported, lab):
     """The page is opened from a file at a width of 390 px and operated by touch; then every
     question is answered again by keyboard.
     """

@@ -136,7 +136,7 @@ def test_slerp_turns_at_constant_speed_and_nlerp_does_not():
 
 def test_slerp_of_half_a_turn_depends_on_the_signs():
     """Both arcs are equally long: the signs of the two quaternions decide between them, and
-    rounding noise does not.
+    rounding errors do not.
     """
     one = Quaternion.identity()
     for noise in (-4e-16, 0, 4e-16):
@@ -297,7 +297,7 @@ def test_roll_is_zero_at_vertical_pitch(pitch):
 @pytest.mark.parametrize("sign", [1, -1])
 def test_roll_pitch_yaw_keep_their_digits_near_vertical_pitch(sign):
     """The nearer the pitch is to a quarter turn, the fewer correct digits roll and yaw have; the
-    rotation that they make together keeps all its digits.
+    rotation that they describe together keeps all its digits.
     """
     rng = np.random.default_rng(15)
     for off in 10.0 ** np.arange(-17, 0.5, 0.25):

@@ -1,4 +1,4 @@
-"""`python -m robokin.course report`: a lab judged again, as one page to hand in.
+"""`python -m robokin.course report`: a lab is judged again and written as one page to hand in.
 
 The labs are written here, so that the verdict on every answer is known in advance.
 """

@@ -123,8 +123,10 @@ def test_the_angle_of_a_target_is_not_wrapped():
     assert VIA.as_transform().rotation.as_matrix()[0, 0] == pytest.approx(-1)
 
 
-def test_angles_of_the_targets_determine_the_direction_of_half_a_turn():
-    """Errata S1-t: 0.01 degrees to either side of START decide the direction of rotation to VIA."""
+def test_half_a_turn_has_a_fixed_direction_for_targets_but_not_for_poses():
+    """Errata S1-t: for poses, 0.01 degrees to either side of START decide the direction of rotation
+    to VIA.
+    """
     middles = []
     for off in (-0.01 * deg, 0.01 * deg):
         near = ScaraPose(START.position, off)

@@ -92,7 +92,7 @@ class Parsed(HTMLParser):
 
 @pytest.fixture(scope="session")
 def parsed(site):
-    """Every page, parsed: name -> page."""
+    """Every page, parsed, by name."""
     return {
         path.relative_to(site).with_suffix("").as_posix(): Parsed(path.read_text(encoding="utf-8"))
         for path in site.rglob("*.html")
@@ -119,7 +119,7 @@ def test_all_links_resolve(site, parsed):
     assert wrong == []
 
 
-def test_nothing_is_loaded_from_elsewhere(site, parsed):
+def test_pages_load_nothing_from_other_hosts(site, parsed):
     for name, page in parsed.items():
         for address in page.loads:
             parts = urlsplit(address)

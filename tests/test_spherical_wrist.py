@@ -386,7 +386,9 @@ def test_negative_zero_in_a_pose_gives_finite_rows(machine):
 
 
 def compare(arm, case, unit=1.0):
-    """Check one reference case: exactly its rows exist, in the places given by their flags."""
+    """Check a reference case: exactly the rows of the case exist, in the places given by their
+    flags.
+    """
     T = transform(case["T"], unit)
     rows = arm.ik(T)
     exists = solved(arm, T, rows)

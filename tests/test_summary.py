@@ -1,4 +1,4 @@
-"""`python -m robokin.course summary`: the teacher's table, compared with counts made here.
+"""`python -m robokin.course summary`: the teacher's table, compared with counts made by the tests.
 test_summary_attacked.py tests attacks by students.
 """
 

@@ -1,5 +1,5 @@
 """Statements of labs 08 and 09 that a fourth reader refuted or doubted, recomputed with inverses,
-times, queues and races written here from the definitions in the labs.
+times, queues and races that are written in this file from the definitions in the labs.
 """
 
 import cmath

@@ -171,7 +171,7 @@ class Walk:
 
 
 def walked(task, order, short_way=False):
-    """The times at which the points are served in this order."""
+    """The times at which the points are reached in this order."""
     walk, times = Walk(task, short_way), []
     for i in order:
         times.append(walk.to(i).time)
@@ -461,9 +461,8 @@ def test_collecting_into_a_container_on_the_axis_keeps_the_speed_limit():
     for other in (
         make(kind="collect"),
         make(p0=(0, 0, 6)),
-        make(
-            p0=(0, 0, 6), points=[(2, 3, 2)], kind="collect"
-        ),  # there is only one order of a single point
+        # there is only one order of a single point
+        make(p0=(0, 0, 6), points=[(2, 3, 2)], kind="collect"),
     ):
         assert "axis 1" not in report(other, answer(other))
     two = make(p0=(0, 0, 6), kind="collect")
@@ -1011,7 +1010,7 @@ def test_a_report_counts_low_moves_after_the_first_ten():
 
 
 def test_the_exact_optimum_of_sixteen_points_takes_seconds():
-    """The tasks are with and without points on the axis."""
+    """The tasks are with and without points on axis 1."""
     rng = np.random.default_rng(9)
     for axis in (0, 6):
         task = drawn_on_the_axis(rng, EXACT_LIMIT, axis=axis, T=30)

@@ -322,7 +322,7 @@ def compare(folder, arguments):
 
 
 def imports(folder):
-    """Print the cost of the import relative to NumPy's, measured in new processes in turn."""
+    """Print the cost of the import relative to NumPy's, measured in turn in new processes."""
     timed = "import time; s = time.process_time(); import {}; print(time.process_time() - s)"
     spans = {"numpy": [], "old": [], "new": []}
     # Write byte code, as on a student's machine, even if the environment forbids it.

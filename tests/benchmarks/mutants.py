@@ -46,7 +46,7 @@ ROOT = Path(__file__).resolve().parent.parent.parent
 EQUIVALENT = Path(__file__).with_name("equivalent_mutants.toml")
 WORKERS = 2
 SECONDS = 120  # time limit for all tests of one mutant
-MEMORY = 8 << 30  # bytes of address space: a fault may ask for any amount
+MEMORY = 8 << 30  # bytes of address space: a fault may request any amount
 
 # The tests that may detect a fault in a module, the most likely ones first: a file, or a file with
 # an expression for -k.
@@ -219,7 +219,7 @@ def _is_stub(function):
 
 
 def _faults(statement):
-    """Yield the path to a node of the statement, its replacement and a text about the change."""
+    """Yield the path to a node of the statement, its replacement and the change in words."""
     kind = type(statement)
     if kind in (ast.Expr, ast.Assign, ast.AugAssign, ast.Raise) and _can_go(statement):
         yield (), ast.Pass(), "removed"
