@@ -723,8 +723,8 @@ def test_reported_outcomes_match_the_files(school, capsys):
         school.newer(name, "second")
     assert main(command) == 0
     assert capsys.readouterr().out.splitlines() == [
-        "tasks/task.json: no longer a lab; the file stays",
-        "one.ipynb: yours stays; the newer version is one.new.ipynb",
+        "tasks/task.json: no longer a lab; the file is kept",
+        "one.ipynb: your version is kept; the newer one is one.new.ipynb",
         "three.ipynb: new",
         "two.ipynb: restored, since there is a newer version",
         f"{school.folder}: 2 new, 1 kept; 0 unchanged",

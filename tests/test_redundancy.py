@@ -209,7 +209,7 @@ def test_invalid_races_are_refused():
     for wrong in ((K[0], before[0]), (K[:0], before[0]), (K, before)):
         with pytest.raises(ValueError, match=r"targets and start: wanted shapes \(n, 2\) and"):
             race(all_of_them, ARMS["equal"], *wrong)
-    with pytest.raises(ValueError, match=r"methods: wanted a dict of name -> function, got 3"):
+    with pytest.raises(ValueError, match=r"methods: wanted a dict of functions by name, got 3"):
         race(3, ARMS["equal"], K, before[0])
     dice = random_choice(5)
     with pytest.raises(ValueError, match="methods: wanted each function only once, got {'one'"):
