@@ -95,9 +95,9 @@ def page_types():
     }
     parts = [
         "// Written by `python tests/javascript.py types` from the TypedDicts of page.py, twin.py,",
-        "// numbers.py, motors.py and things/, which say what everything is. Change those.",
+        "// numbers.py, motors.py and things/, which describe every key. Edit those files instead.",
         "",
-        "/** T with these of its optional keys there. */",
+        "/** T in which these optional keys are present. */",
         "export type With<T, K extends keyof T> = T & Required<Pick<T, K>>;",
     ]
     for name, kind in ALIASES.items():
