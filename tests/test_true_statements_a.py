@@ -232,7 +232,7 @@ def test_distances_from_public_models_are_as_stated():
         away = np.linalg.norm((IRB140.fk(alone).as_matrix() - model(alone))[:3, 3]) / mm
         assert round(away) == number(r"their flange is (\d+) mm from ours", lab)
         assert round(away) == number(
-            r"without the negation it is (\d+) mm away at q2 = 30", comment
+            r"without the negation, it is (\d+) mm away when q2 = 30", comment
         )
     assert "exactly\n10 mm, at every posture" in lab and "exactly 10 mm away" in table
     assert "flange is 10 mm from ours at every posture" in comment
