@@ -263,7 +263,8 @@ def test_joined_style_sheets_match_the_files_in_a_browser(browser):
         sheet.textContent = text;
         return [...sheet.sheet.cssRules].map(rule => rule.cssText.replace(/,\\s+/g, ","));
     }"""
-    for name in ("motor_explorer", "tour_explorer", "plan_explorer", "prediction"):
+    views = "motor_explorer", "elbow_explorer", "tour_explorer", "plan_explorer", "prediction"
+    for name in views:
         text = joiner.style(name)
         order = [path.stem for path in SHEETS if f"const ${path.stem} " in joiner.script(name)]
         order.sort(key=lambda stem: joiner.script(name).index(f"const ${stem} "))

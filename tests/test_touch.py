@@ -17,6 +17,7 @@ from robokin import three_lever
 from robokin.course.predictions import Asked
 from robokin.show import (
     animate,
+    elbow_explorer,
     joint_explorer,
     motion_explorer,
     motor_explorer,
@@ -47,6 +48,7 @@ EXPLORERS = {
 VIEWS = EXPLORERS | {
     "player": player,
     "levers": lambda: target_explorer(three_lever(0.3)),
+    "elbow": lambda: elbow_explorer(IRB140),
     "motor": motor_explorer,
     "plan": lambda: plan_explorer(test_live.ARM, test_live.START, (1.9, 0.3), (1.2, 1.3)),
     "tour": lambda: tour_explorer(test_tour_explorer.CIRCLE),

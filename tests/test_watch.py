@@ -12,6 +12,7 @@ from robokin import IRB140, PUMA560, deg, follow, lin, mm, ptp, quintic, three_l
 from robokin import SCARA as WITH_ROWS
 from robokin.show import (
     animate,
+    elbow_explorer,
     joint_explorer,
     motion_explorer,
     motor_explorer,
@@ -93,6 +94,7 @@ EXPLORERS = {
     "target of eight rows": lambda: target_explorer(IRB140),
     "target of two rows": lambda: target_explorer(WITH_ROWS),
     "three levers": lambda: target_explorer(three_lever((0.3, 0.2, 0.4))),
+    "elbow": lambda: elbow_explorer(IRB140),
     "motor": motor_explorer,
 }
 

@@ -356,6 +356,7 @@ CALLS = {
         figures.joint_explorer,
         dict(arm=IRB140, q=SIX, singular=True, wrist=True),
     ),
+    "elbow_explorer": (figures.elbow_explorer, dict(arm=IRB140)),
     "target_explorer": (figures.target_explorer, dict(arm=SCARA)),
     "tour_explorer": (figures.tour_explorer, dict(task=TASK)),
     "motion_explorer": (

@@ -2,6 +2,7 @@
 
 try:
     from .charts import bars, curves
+    from .elbow_explorer import elbow_explorer
     from .ellipsoid import plot_velocity_ellipsoid
     from .explorer import Explorer
     from .explorers import joint_explorer, target_explorer
@@ -26,6 +27,7 @@ __all__ = [
     "animate",
     "bars",
     "curves",
+    "elbow_explorer",
     "figure",
     "joint_explorer",
     "motion_explorer",

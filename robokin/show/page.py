@@ -300,6 +300,17 @@ class LeversPage(ArmPage):
     target: PagePose
 
 
+class ElbowPage(ArmPage):
+    """The data of the explorer of an elbow: the point [r, z] in the plane of the arm, the headings
+    of the table, and the names of its rows.
+    """
+
+    kind: Literal["elbow"]
+    point: list[float]
+    heads: list[str]
+    elbows: list[str]
+
+
 class TargetPage(ArmPage):
     """The data of the target explorer: the target, its rotations in radians, the previous posture
     q, the names of the branches, the headings of the table, and the joints whose angle changes are
@@ -365,7 +376,9 @@ class TourPage(LivePage):
     spare: list[list[float]]
 
 
-PageExplorer: TypeAlias = JointPage | LeversPage | TargetPage | MotionPage | PlanPage | TourPage
+PageExplorer: TypeAlias = (
+    JointPage | LeversPage | ElbowPage | TargetPage | MotionPage | PlanPage | TourPage
+)
 
 
 class PageAnswer(TypedDict):

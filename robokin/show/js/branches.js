@@ -151,7 +151,7 @@ export function follow(arm, samples, row) {
  * @param {number[]} q
  * @param {number} j
  */
-function excess(arm, q, j) {
+export function excess(arm, q, j) {
   const [low, high] = arm.limits[j],
     value = representative(arm, q)[j],
     {name, size} = arm.units[j];

@@ -4,7 +4,8 @@
 /** T in which these optional keys are present. */
 export type With<T, K extends keyof T> = T & Required<Pick<T, K>>;
 
-export type PageExplorer = JointPage | LeversPage | TargetPage | MotionPage | PlanPage | TourPage;
+export type PageExplorer =
+  JointPage | LeversPage | ElbowPage | TargetPage | MotionPage | PlanPage | TourPage;
 
 export type Scale = [number, number, number, number];
 
@@ -318,6 +319,24 @@ export interface LeversPage {
   kind: "levers";
   q: number[];
   target: PagePose;
+}
+
+export interface ElbowPage {
+  title: string;
+  summary: string;
+  alt: string;
+  meant: string;
+  unit: PageUnit;
+  scene: PageScene;
+  controls: Control[];
+  words: Record<string, string>;
+  code: string;
+  arm: ArmData;
+  units: PageUnit[];
+  kind: "elbow";
+  point: number[];
+  heads: string[];
+  elbows: string[];
 }
 
 export interface TargetPage {

@@ -175,7 +175,7 @@ const inside = ([x, y, w, h]) => [x + 20, y + 28, Math.max(1, w - 40), Math.max(
  * outside the picture.
  * @param {Scene} scene
  */
-function surroundings({flat, floor: [low], seen}) {
+export function surroundings({flat, floor: [low], seen}) {
   const normal = flat ?? 2,
     [a, b] = [0, 1, 2].filter(i => i !== normal);
   /** @type {(x: number, y: number) => Point} */
@@ -313,7 +313,7 @@ function writeRow(g, row, [x, y], written) {
  * @param {Pen} pen
  * @param {boolean} [over]
  */
-function drawFloor(
+export function drawFloor(
   {
     g,
     cam: {to},
