@@ -101,7 +101,7 @@ def test_visiting_in_order_of_angle_turns_joint_1_least():
     rising = tuple(np.argsort(angles).tolist())
     assert {o for o, t in took.items() if t < min(took.values()) + 1e-9} == {rising, rising[::-1]}
     assert round(took[rising], 2) == 38.16
-    # an earlier text was wrong: another order is quicker than going round in order
+    # an earlier text was wrong: a different order is faster than visiting the points in sequence
     assert round(took[0, 1, 2, 3], 2) == 53.87 and round(took[0, 3, 1, 2], 2) == 46.02
 
 
