@@ -4,6 +4,7 @@ curve, limits that are exceeded, and the row of `ik`; and how much of the screen
 
 import numpy as np
 import pytest
+import test_singularity_explorer
 from conftest import awake
 from test_player import FRACTIONS, GOAL, ROW, SCARA, START, VIA, T, chain, ink, kept, unpacked
 
@@ -91,6 +92,7 @@ EXPLORERS = {
     "target of two rows": lambda: target_explorer(WITH_ROWS),
     "three levers": lambda: target_explorer(three_lever((0.3, 0.2, 0.4))),
     "motor": motor_explorer,
+    "singularity": test_singularity_explorer.view,
 }
 
 

@@ -333,6 +333,19 @@ class MotionPage(ArmPage):
     jumps: JumpRules
 
 
+class SingularityPage(ArmPage):
+    """The data of the singularity explorer: the singular pose, two unit vectors (the direction of
+    the line, and that in which it misses the pose), the row of `ik`, and the tool's speed in m/s.
+    """
+
+    kind: Literal["singularity"]
+    pose: PagePose
+    along: list[float]
+    beside: list[float]
+    row: int
+    speed: float
+
+
 class LivePage(ExplorerPage):
     """The additional data of `live.Live`: the first question of an explorer, and its answer."""
 
@@ -363,7 +376,9 @@ class TourPage(LivePage):
     spare: list[list[float]]
 
 
-PageExplorer: TypeAlias = JointPage | LeversPage | TargetPage | MotionPage | PlanPage | TourPage
+PageExplorer: TypeAlias = (
+    JointPage | LeversPage | TargetPage | MotionPage | SingularityPage | PlanPage | TourPage
+)
 
 
 class PageAnswer(TypedDict):

@@ -4,7 +4,8 @@
 /** T with these of its optional keys there. */
 export type With<T, K extends keyof T> = T & Required<Pick<T, K>>;
 
-export type PageExplorer = JointPage | LeversPage | TargetPage | MotionPage | PlanPage | TourPage;
+export type PageExplorer =
+  JointPage | LeversPage | TargetPage | MotionPage | SingularityPage | PlanPage | TourPage;
 
 export type Scale = [number, number, number, number];
 
@@ -366,6 +367,26 @@ export interface MotionPage {
   panels: string[];
   samples: number;
   jumps: JumpRules;
+}
+
+export interface SingularityPage {
+  title: string;
+  summary: string;
+  alt: string;
+  meant: string;
+  unit: PageUnit;
+  scene: PageScene;
+  controls: Control[];
+  words: Record<string, string>;
+  code: string;
+  arm: ArmData;
+  units: PageUnit[];
+  kind: "singularity";
+  pose: PagePose;
+  along: number[];
+  beside: number[];
+  row: number;
+  speed: number;
 }
 
 export interface LivePage {
