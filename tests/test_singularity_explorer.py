@@ -9,6 +9,7 @@ import numpy as np
 import pytest
 import test_explorers
 import test_twin
+from axe_playwright_python.sync_playwright import Axe
 
 from robokin import IRB140, ITMO6R, SCARA, Transform, deg, follow, mm
 from robokin.show import singularity_explorer
@@ -141,6 +142,35 @@ def test_keys_move_the_tool_by_1_and_10_mm(opened):
         seen = shown.look()
         assert seen.boxes["place"] == place
         assert seen.handles["tool"]["name"] == f"tool along the line, {place} mm"
+
+
+def test_a_finger_drags_the_tool(browser, opened):
+    phone = browser.new_context(viewport={"width": 390, "height": 700}, has_touch=True)
+    phone.add_init_script(test_explorers.WATCH)
+    shown = opened(view(), ITMO6R, within=phone)
+    finger = phone.new_cdp_session(shown.page)
+    before = shown.look()
+    x, y = before.handles["tool"]["at"]
+    for k in range(7):
+        at = [{"x": x + 6 * k, "y": y - 10 * k}]
+        kind = "touchMove" if k else "touchStart"
+        finger.send("Input.dispatchTouchEvent", {"type": kind, "touchPoints": at})
+    finger.send("Input.dispatchTouchEvent", {"type": "touchEnd", "touchPoints": []})
+    after = shown.look()
+    assert after.boxes["place"] > -70 and shown.page.evaluate("scrollY") == 0
+    scene, number = (shown.rk.locator(x).bounding_box() for x in (".rk-scene", ".rk-speed b"))
+    assert number["y"] + number["height"] - scene["y"] < 400, "not on one screen with the tool"
+    phone.close()
+
+
+@pytest.mark.parametrize("theme", ["light", "dark"])
+def test_nothing_hinders_a_screen_reader_or_weak_eyes(opened, theme):
+    shown = opened(view(), ITMO6R)
+    shown.page.emulate_media(color_scheme=theme)
+    for place in (-100, 0):
+        shown.type("place", place)
+        shown.look()
+        assert Axe().run(shown.page, context=".rk").response["violations"] == []
 
 
 def test_a_click_on_the_curve_moves_the_tool(opened):
