@@ -192,7 +192,8 @@ function curves(data, places) {
     const look = {opening: null, joint: JOINT, arm: 0, axis: 0, faint: false, limits: null},
       lines = [{...look, values, gaps: new Set(), now: NaN}],
       axes = [{unit: "", scale: scale(0, Math.max(1, most))}]; // at least one turn/s
-    const panels = [{label: data.words.axis, axes, lines, near: [], marks: []}];
+    const label = fill(data.words.axis, {miss: number(miss, 0)}),
+      panels = [{label, axes, lines, near: [], marks: []}];
     curve = {panels, large: 0, names: [], most, at};
     return curve;
   };
