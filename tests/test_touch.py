@@ -9,6 +9,7 @@ import pytest
 import test_explorers
 import test_live
 import test_predictions
+import test_singularity_explorer
 import test_tour_explorer
 from test_browser import NEXT_FRAME
 from test_explorers import GOAL, IRB140, LOADER, SCARA, START, VIA
@@ -52,6 +53,7 @@ VIEWS = EXPLORERS | {
     "motor": motor_explorer,
     "plan": lambda: plan_explorer(test_live.ARM, test_live.START, (1.9, 0.3), (1.2, 1.3)),
     "tour": lambda: tour_explorer(test_tour_explorer.CIRCLE),
+    "singularity": test_singularity_explorer.view,
     "question": question,
 }
 each_view = pytest.mark.parametrize("kind", VIEWS)

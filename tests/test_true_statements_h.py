@@ -6,7 +6,6 @@ import re
 import numpy as np
 import pytest
 from scipy.spatial.transform import Rotation
-from test_true_statements_b import cells
 from test_true_statements_b import run as run_cells
 from test_true_statements_c import flat, numbers, shown
 from test_true_statements_g import joints_of, place_of
@@ -194,25 +193,3 @@ def test_arm_with_equal_links_can_dip_below_the_floor_from_the_origin():
     assert abs(arm.fk(q[0]).translation).max() < 1e-9, "the tool should be at the origin"
     assert heights[1] < -1 and heights[2] > -1e-9
     assert (abs(q) <= np.abs(arm.limits).max(axis=1) + 1e-9).all()
-
-
-def test_greatest_speed_in_slow_motion_is_a_twentieth_except_through_the_singularity():
-    made = run_cells("06", "setup")
-    text = next(each for each in cells("06").values() if "twenty times slower, so" in each)
-    assert "for 1, 2 and 5 mm the greatest speed is a twentieth" in " ".join(text.split())
-    assert "(in the hit the table's comes later, at 3.1 s)" in " ".join(text.split())
-    law, line = made["law"], made["line"]
-    times = np.union1d(np.linspace(0.01, 3.99, 20_001), np.linspace(1.85, 2.15, 60_001))
-    inside = (times > 1.85) & (times < 2.15)
-    h = 1e-6
-    for miss in (0, 1, 2, 5):
-        rows = [
-            ITMO6R.ik(line(miss * mm, law(times + side * h)))[:, made["row"]] for side in (-1, 1)
-        ]
-        step = np.angle(np.exp(1j * (rows[1] - rows[0])[:, 3]))  # without whole turns
-        speed = abs(step) / (2 * h)
-        speed[speed > 3000] = 0  # the row changes its branch at the singularity
-        if miss:
-            assert inside[speed.argmax()]
-        else:
-            assert abs(times[speed.argmax()] - 3.1) < 0.05 and not inside[speed.argmax()]

@@ -5,6 +5,7 @@ all this needs.
 
 import numpy as np
 import pytest
+import test_singularity_explorer
 from conftest import awake
 from test_player import FRACTIONS, GOAL, ROW, SCARA, START, VIA, T, chain, ink, kept, unpacked
 
@@ -96,6 +97,7 @@ EXPLORERS = {
     "three levers": lambda: target_explorer(three_lever((0.3, 0.2, 0.4))),
     "elbow": lambda: elbow_explorer(IRB140),
     "motor": motor_explorer,
+    "singularity": test_singularity_explorer.view,
 }
 
 

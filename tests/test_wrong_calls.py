@@ -375,6 +375,10 @@ CALLS = {
         figures.plan_explorer,
         dict(arm=LEVERS, posture=FOLDED, target=POINT, obstacle=OBSTACLE),
     ),
+    "singularity_explorer": (
+        figures.singularity_explorer,
+        dict(arm=IRB140, q=np.zeros(6), way=(0.0, 1.0, 1.0), most=0.02, step=0.001),
+    ),
     "motor_explorer": (figures.motor_explorer, dict(motor=STEPPER)),
     "bars": (
         figures.bars,

@@ -13,6 +13,7 @@ try:
     from .plan_explorer import plan_explorer
     from .player import Player, animate
     from .plots import figure, plot_frames, plot_postures
+    from .singularity_explorer import singularity_explorer
     from .sketch import Sketch
     from .tour_explorer import tour_explorer
 except ModuleNotFoundError as error:
@@ -37,6 +38,7 @@ __all__ = [
     "plot_joints",
     "plot_postures",
     "plot_velocity_ellipsoid",
+    "singularity_explorer",
     "target_explorer",
     "tour_explorer",
 ]

@@ -346,6 +346,19 @@ class MotionPage(ArmPage):
     jumps: JumpRules
 
 
+class SingularityPage(ArmPage):
+    """The data of the singularity explorer: the singular pose, two unit vectors (the direction of
+    the line, and that in which it misses the pose), the row of `ik`, and the tool's speed in m/s.
+    """
+
+    kind: Literal["singularity"]
+    pose: PagePose
+    along: list[float]
+    beside: list[float]
+    row: int
+    speed: float
+
+
 class LivePage(ExplorerPage):
     """The additional data of `live.Live`: the first question of an explorer, and its answer."""
 
@@ -377,7 +390,14 @@ class TourPage(LivePage):
 
 
 PageExplorer: TypeAlias = (
-    JointPage | LeversPage | ElbowPage | TargetPage | MotionPage | PlanPage | TourPage
+    JointPage
+    | LeversPage
+    | ElbowPage
+    | TargetPage
+    | MotionPage
+    | SingularityPage
+    | PlanPage
+    | TourPage
 )
 
 

@@ -24,7 +24,13 @@ import nbformat
 import numpy as np
 
 from robokin import IRB140, SCARA, Quaternion, Transform, blend, deg, follow, quintic, two_link
-from robokin.show import animate, joint_explorer, motion_explorer, target_explorer
+from robokin.show import (
+    animate,
+    joint_explorer,
+    motion_explorer,
+    singularity_explorer,
+    target_explorer,
+)
 
 sys.path.insert(0, str(Path(__file__).resolve().parents[1]))
 from conftest import FLAGS, JupyterLab
@@ -191,6 +197,10 @@ async def ours(path, folder):
         "target, 8 branches": (target_explorer(IRB140), "[data-handle=free]"),
         "SCARA": (target_explorer(SCARA), "[data-handle=free]"),
         "planar": (target_explorer(two_link(0.3, 0.2)), "[data-handle=free]"),
+        "singularity": (
+            singularity_explorer(IRB140, np.zeros(6), (0, 1, 1)),
+            "[data-handle=tool]",
+        ),
         "motion, 241 samples": (motion_explorer(IRB140, start, via, goal), "[data-handle=via]"),
     }
     found = {}

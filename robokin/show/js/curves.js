@@ -27,8 +27,9 @@ const HEAD = 22, // px: the height of the name above a plot
  *
  * @param {HTMLCanvasElement} canvas
  * @param {number[][]} patterns  the dashes of the joints' lines
+ * @param {string} [unit]  the unit of the common axis, if this is not the time
  */
-export function curvesView(canvas, patterns) {
+export function curvesView(canvas, patterns, unit = "s") {
   let span = [0, 1, 0, 1]; // left, width, first and last time
 
   /**
@@ -57,7 +58,7 @@ export function curvesView(canvas, patterns) {
       drawPanel({g, patterns, times, x, sides, several: names.length > 1}, panels[k], ticks, now);
       top += HEAD + height;
     }
-    tellTimes(g, ticks, [t0, t1], x, end + 16);
+    tellTimes(g, ticks, [t0, t1], x, end + 16, unit);
   }
 
   return {
@@ -98,12 +99,13 @@ export function heights(count, large, room) {
  * @param {[first: number, last: number]} span
  * @param {Place} x
  * @param {number} y
+ * @param {string} name  of the unit
  */
-function tellTimes(g, [first, step, count, decimals], [t0, t1], x, y) {
+function tellTimes(g, [first, step, count, decimals], [t0, t1], x, y, name) {
   for (let i = 0; i < count; i++) {
     const t = first + i * step;
     if (t < t0 - 1e-9 || t > t1 + 1e-9) continue;
-    const unit = t + step > t1 + 1e-9 ? " s" : "";
+    const unit = t + step > t1 + 1e-9 ? ` ${name}` : "";
     const text = number(t, decimals) + unit;
     g.font = font(11);
     // keeps the text inside the canvas

@@ -1,5 +1,5 @@
-// The Jacobian and two results that follow from it: the distance from a singularity, and the
-// ellipsoid of tool velocities. The reference is in arms/arm.py and arms/dexterity.py.
+// The Jacobian and results that follow from it: joint speeds, the distance from a singularity, and
+// the ellipsoid of tool velocities. The reference is in arms/arm.py and arms/dexterity.py.
 
 import {cross, frames, origin, plus, turned} from "./kinematics.js";
 
@@ -22,6 +22,32 @@ export function jacobian(chain, q) {
     return [...cross(axis, plus(tip, origin(joints[i]), -1)), ...axis];
   });
   return [0, 1, 2, 3, 4, 5].map(row => columns.map(column => column[row]));
+}
+
+/**
+ * The joint speeds of an arm with six joints that give the flange a velocity. They are not finite
+ * where the Jacobian has no inverse.
+ * @param {PageLink[]} chain
+ * @param {number[]} q
+ * @param {number[]} velocity  m/s, then rad/s
+ * @returns {number[]}  rad/s, m/s if prismatic
+ */
+export function jointSpeeds(chain, q, velocity) {
+  const rows = jacobian(chain, q).map((row, i) => [...row, velocity[i]]);
+  for (let k = 0; k < rows.length; k++) {
+    // Gauss-Jordan elimination; of the remaining rows the one with the largest pivot is next
+    const next = rows.reduce(
+      (best, row, i) => (i > k && Math.abs(row[k]) > Math.abs(rows[best][k]) ? i : best),
+      k,
+    );
+    [rows[k], rows[next]] = [rows[next], rows[k]];
+    const pivot = rows[k];
+    for (const row of rows) {
+      const share = row === pivot ? 0 : row[k] / pivot[k];
+      for (let j = k; j < row.length; j++) row[j] -= share * pivot[j];
+    }
+  }
+  return rows.map((row, k) => row[row.length - 1] / row[k]);
 }
 
 /**

@@ -5,7 +5,7 @@
 export type With<T, K extends keyof T> = T & Required<Pick<T, K>>;
 
 export type PageExplorer =
-  JointPage | LeversPage | ElbowPage | TargetPage | MotionPage | PlanPage | TourPage;
+  JointPage | LeversPage | ElbowPage | TargetPage | MotionPage | SingularityPage | PlanPage | TourPage;
 
 export type Scale = [number, number, number, number];
 
@@ -385,6 +385,26 @@ export interface MotionPage {
   panels: string[];
   samples: number;
   jumps: JumpRules;
+}
+
+export interface SingularityPage {
+  title: string;
+  summary: string;
+  alt: string;
+  meant: string;
+  unit: PageUnit;
+  scene: PageScene;
+  controls: Control[];
+  words: Record<string, string>;
+  code: string;
+  arm: ArmData;
+  units: PageUnit[];
+  kind: "singularity";
+  pose: PagePose;
+  along: number[];
+  beside: number[];
+  row: number;
+  speed: number;
 }
 
 export interface LivePage {

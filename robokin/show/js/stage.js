@@ -3,7 +3,7 @@
 import {frames, origin, plus, turned} from "./kinematics.js";
 import {clear, colors, jointColor, number, replaceStill, stroke} from "./canvas.js";
 import {sceneOf, sceneView} from "./scene.js";
-import {orbit, sceneCanvas} from "./controls.js";
+import {orbit, sceneCanvas, spoken} from "./controls.js";
 import {pictures} from "./pictures.js";
 import {control, element} from "./elements.js";
 import {handleLayer} from "./handles.js";
@@ -15,9 +15,9 @@ import {range} from "./sliders.js";
 /** @import {Shown} from "./scene.js" */
 
 /**
- * An arm of an explorer; the first one shows the axes of its joints and the semi-axes of the
- * ellipsoid of tool velocities, if it has them.
- * @typedef {Shown & {axes?: boolean, ellipsoid?: number[][]}} Explored
+ * An arm of an explorer; the first one shows the axes of all its joints or of those listed, and the
+ * semi-axes of the ellipsoid of tool velocities, if it has them.
+ * @typedef {Shown & {axes?: boolean | number[], ellipsoid?: number[][]}} Explored
  */
 /** @typedef {ReturnType<typeof stageOf>} Stage */
 /**
@@ -31,7 +31,8 @@ import {range} from "./sliders.js";
  */
 
 /**
- * The frame of an explorer whose picture is a scene of arms.
+ * The frame of an explorer whose picture is a scene of arms. `name(alt)` changes the name of the
+ * scene for a screen reader.
  * @param {HTMLElement} root
  * @param {PageExplorer} data
  */
@@ -54,7 +55,9 @@ export function stageOf(root, data) {
     },
   });
   orbit(canvas, scene, state, stage.ask);
-  return {...stage, scene};
+  /** @param {string} alt */
+  const name = alt => canvas.setAttribute("aria-label", spoken(scene, alt));
+  return {...stage, scene, name};
 }
 
 /**
@@ -190,6 +193,7 @@ function drawAids(g, camera, {chain, q, axes, ellipsoid}, size) {
     tip = origin(all[all.length - 1]);
   if (axes)
     joints.forEach((joint, j) => {
+      if (axes !== true && !axes.includes(j)) return;
       const way = turned(joint, chain[j].axis),
         ends = [-0.22, 0.22].map(k => camera.to(plus(origin(joint), way, k * size)));
       stroke(g, ends, jointColor(j), 1.6, [7, 3, 1.5, 3]);
