@@ -5,7 +5,14 @@
 export type With<T, K extends keyof T> = T & Required<Pick<T, K>>;
 
 export type PageExplorer =
-  JointPage | LeversPage | ElbowPage | TargetPage | MotionPage | SingularityPage | PlanPage | TourPage;
+  | JointPage
+  | LeversPage
+  | ElbowPage
+  | TargetPage
+  | MotionPage
+  | SingularityPage
+  | PlanPage
+  | TourPage;
 
 export type Scale = [number, number, number, number];
 
