@@ -20,8 +20,8 @@ from robokin.course.predictions import shown
 from robokin.course.questions import chosen_option, filled
 
 LABS = {name: next(NOTEBOOKS.glob(f"*_{name}.ipynb")) for name in book.labs()}
-EXERCISES = [f"{lab}.{n}" for lab in book.labs() for n in book.lab(lab).exercises]
-PREDICTIONS = [f"{lab}.{n}" for lab in book.labs() for n in book.lab(lab).predictions]
+EXERCISES = [name for lab in book.labs() for name in book.ids(lab, "exercises")]
+PREDICTIONS = [name for lab in book.labs() for name in book.ids(lab, "predictions")]
 KINDS = {e: type(book.find(e, "exercises")) for e in EXERCISES}
 FUNCTIONS = [e for e in EXERCISES if KINDS[e] is Function]
 CATCHES = [e for e in EXERCISES if KINDS[e] is Catch]
@@ -40,10 +40,19 @@ def code(lab):
 @every_lab
 def test_lab_asks_its_predictions_and_exercises_in_order(lab):
     asked = re.findall(r'^predict\("([\w.]+)"\)$', code(lab), re.M)
-    assert asked == [p for p in PREDICTIONS if p.startswith(f"{lab}.")]
+    assert asked == book.ids(lab, "predictions")
     checked = re.findall(r'^check\("([\w.]+)",', code(lab), re.M)
-    assert checked == [e for e in EXERCISES if e.startswith(f"{lab}.")]
+    assert checked == book.ids(lab, "exercises")
     assert len(asked) <= 10 and len(checked) == (1 if lab == SMALL else 3)
+
+
+def test_no_two_labs_ask_a_prediction_with_the_same_id():
+    assert len(set(PREDICTIONS)) == len(PREDICTIONS)
+    moved = {p for lab in book.labs() for p in book.lab(lab).moved.values()}
+    assert moved <= set(PREDICTIONS)
+    for name in moved:  # the lab that asked it first does not give its number to another one
+        first, _, number = name.partition(".")
+        assert number not in book.lab(first).predictions, name
 
 
 @every_lab
@@ -86,7 +95,7 @@ def test_last_cell_of_your_turn_makes_the_report(lab):
 
 @pytest.mark.parametrize("name", EXERCISES)
 def test_untouched_exercise_counts_as_unanswered(name):
-    lab, _, number = name.partition(".")
+    lab = book.home(name)
     kept = [
         "".join(c["outputs"][0]["data"]["text/plain"])
         for c in cells(lab)
@@ -217,7 +226,7 @@ def test_prediction_has_one_correct_option_and_each_option_has_a_reason(name):
 
 @pytest.mark.parametrize("name", PREDICTIONS)
 def test_reasons_of_predictions_do_not_appear_in_the_lab(name):
-    lab, _, number = name.partition(".")
+    lab = book.home(name)
     _, options, right = filled(book.find(name, "predictions"))
     open_words = []
     for cell in cells(lab):

@@ -486,10 +486,10 @@ def test_report_opens_each_question_with_the_first_guess():
     assert '"choice":null' in again(stored, "n", {})
     assert '"choice":null' in again(stored, "n", {"irb140_motion.p1": "no letter"})
     number = next(
-        f"{lab}.{n}"
+        name
         for lab in book.labs()
-        for n, each in book.lab(lab).predictions.items()
-        if each.unit
+        for name in book.ids(lab, "predictions")
+        if book.find(name, "predictions").unit
     )
     assert '"choice":"-12.5"' in again(predict(number).html, "n", {number: "-12.5"})
     assert '"choice":null' in again(predict(number).html, "n", {number: "nan"})
@@ -687,9 +687,9 @@ def report_of(path, folder):
     if slug in book.labs():
         data["lab"] = slug
         data["predictions"] = [
-            {"id": f"{slug}.{n}", "choice": None, "right": None, "confusion": None}
+            {"id": name, "choice": None, "right": None, "confusion": None}
             | {"when": None, "later": []}
-            for n in book.lab(slug).predictions
+            for name in book.ids(slug, "predictions")
         ]
     page = folder / f"{path.stem}.html"
     page.write_text(page_of(data, notebook, path.parent), encoding="utf-8")
