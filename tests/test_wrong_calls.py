@@ -374,6 +374,10 @@ CALLS = {
         figures.plan_explorer,
         dict(arm=LEVERS, posture=FOLDED, target=POINT, obstacle=OBSTACLE),
     ),
+    "conveyor_player": (
+        figures.conveyor_player,
+        dict(v=0.2, spreads=np.array([0.0, 0.5, 1.0]), arms=3),
+    ),
     "motor_explorer": (figures.motor_explorer, dict(motor=STEPPER)),
     "bars": (
         figures.bars,
@@ -470,6 +474,7 @@ CALLS = {
     "visit_collect.answer": (visit_collect.answer, dict(task=TASK, above_floor=False)),
     "visit_collect.report": (visit_collect.report, dict(task=TASK, result=RESULT)),
     "conveyor.spaced": (conveyor.spaced, dict(count=4, gap=0.15, spread=0.5, seed=3)),
+    "conveyor.ways_from": (conveyor.ways_from, dict(bin_place=np.array([0.2, -0.3, 0.2]))),
     "conveyor.Trips": (conveyor.Trips, _fields(conveyor.serve([0.1], 0.1, S, S + 1)[0])),
     "conveyor.serve": (
         conveyor.serve,

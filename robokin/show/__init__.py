@@ -2,6 +2,7 @@
 
 try:
     from .charts import bars, curves
+    from .conveyor import conveyor_player
     from .ellipsoid import plot_velocity_ellipsoid
     from .explorer import Explorer
     from .explorers import joint_explorer, target_explorer
@@ -25,6 +26,7 @@ __all__ = [
     "Sketch",
     "animate",
     "bars",
+    "conveyor_player",
     "curves",
     "figure",
     "joint_explorer",
