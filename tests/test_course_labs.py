@@ -26,11 +26,15 @@ KINDS = {e: type(book.find(e, "exercises")) for e in EXERCISES}
 FUNCTIONS = [e for e in EXERCISES if KINDS[e] is Function]
 CATCHES = [e for e in EXERCISES if KINDS[e] is Catch]
 every_lab = pytest.mark.parametrize("lab", book.labs())
-SMALL = "start_here"  # a ten-minute lab with one exercise and one prediction
+SHORT = ("start_here", "rotor", "conveyor")  # labs of at most half an hour, with one exercise
 
 
 def cells(lab):
     return json.loads(LABS[lab].read_text(encoding="utf-8"))["cells"]
+
+
+def words_of(lab):
+    return "\n\n".join("".join(c["source"]) for c in cells(lab) if c["cell_type"] == "markdown")
 
 
 def code(lab):
@@ -43,7 +47,7 @@ def test_lab_asks_its_predictions_and_exercises_in_order(lab):
     assert asked == book.ids(lab, "predictions")
     checked = re.findall(r'^check\("([\w.]+)",', code(lab), re.M)
     assert checked == book.ids(lab, "exercises")
-    assert len(asked) <= 10 and len(checked) == (1 if lab == SMALL else 3)
+    assert len(asked) <= 10 and len(checked) == (1 if lab in SHORT else 3)
 
 
 def test_no_two_labs_ask_a_prediction_with_the_same_id():
@@ -70,7 +74,7 @@ def test_exercise_titles_and_optional_predictions_match_the_lab(lab):
 def test_every_objective_is_practised_and_named_in_the_lab(lab, monkeypatch):
     monkeypatch.setattr(course, "_verdicts", {})
     made = book.lab(lab)
-    assert len(made.objectives) == (1 if lab == SMALL else 3)
+    assert len(made.objectives) == (1 if lab in SHORT else 3)
     numbers = set(range(1, len(made.objectives) + 1))
     assert {e.objective for e in made.exercises.values()} == numbers
     kinds = {type(e) for e in made.exercises.values()}
@@ -80,6 +84,14 @@ def test_every_objective_is_practised_and_named_in_the_lab(lab, monkeypatch):
     plain = re.sub(r"[*\s]+", " ", words)
     for objective in made.objectives:
         assert objective.rstrip(".;") in plain, objective
+    if lab in SHORT[1:]:  # questions practise what no exercise does
+        listed = re.search(r"\*\*You will be able to\*\*\n\n(.*?)\n\n", words_of(lab), re.S)[1]
+        parts = re.findall(r"\((exercise 1|question in section \d)\)[;.]$", listed, re.M)
+        assert len(parts) == 3 == listed.count("\n") + 1 and "exercise 1" in parts
+        sections = re.split(
+            r"^## (?=\d)", "\n".join("".join(c["source"]) for c in cells(lab)), flags=re.M
+        )
+        assert all("predict(" in sections[int(p[-1])] for p in parts if p[0] == "q")
 
 
 @every_lab
