@@ -5,6 +5,7 @@ on the old version of the lab can still be read.
 import json
 
 import pytest
+from conftest import NOTEBOOKS
 from handed import page, put, report_of, rows_of, stored
 
 from robokin.course import book, check, predict, summary, summary_pages
@@ -191,3 +192,18 @@ def test_notebook_without_a_name_is_recognised_by_what_its_lab_asks():
     assert _lab(['predict("early.p2")', 'hint("late.1")']) == "late"
     assert _lab(['predict("early.p2")', 'predict("early.p1")', 'predict("early.p3")']) == "early"
     assert _lab(['print("os.1")']) is None
+
+
+def test_labs_13_and_14_ask_what_labs_11_and_08_asked_before(tmp_path):
+    moved = {
+        "rotor": ["motor_synchronisation.p8", "motor_synchronisation.p10"],
+        "conveyor": ["visit_and_collect.p9"],
+    }
+    for lab, ids in moved.items():
+        first = ids[0].partition(".")[0]
+        [new], [old] = (list(NOTEBOOKS.glob(f"*_{each}.ipynb")) for each in (lab, first))
+        assert handed_in(new).lab == lab and set(ids) <= set(results(new))
+        assert handed_in(old).lab == first and not set(ids) & set(results(old))
+        before = asking(tmp_path / old.name, *(f"{first}.p{k}" for k in range(1, 8)), *ids)
+        keep(before, [(name, "a", TIMES[k]) for k, name in enumerate(ids)])
+        assert handed_in(before).lab == first and set(ids) <= set(results(before))
