@@ -20,17 +20,21 @@ from robokin.course.predictions import shown
 from robokin.course.questions import chosen_option, filled
 
 LABS = {name: next(NOTEBOOKS.glob(f"*_{name}.ipynb")) for name in book.labs()}
-EXERCISES = [f"{lab}.{n}" for lab in book.labs() for n in book.lab(lab).exercises]
-PREDICTIONS = [f"{lab}.{n}" for lab in book.labs() for n in book.lab(lab).predictions]
+EXERCISES = [name for lab in book.labs() for name in book.ids(lab, "exercises")]
+PREDICTIONS = [name for lab in book.labs() for name in book.ids(lab, "predictions")]
 KINDS = {e: type(book.find(e, "exercises")) for e in EXERCISES}
 FUNCTIONS = [e for e in EXERCISES if KINDS[e] is Function]
 CATCHES = [e for e in EXERCISES if KINDS[e] is Catch]
 every_lab = pytest.mark.parametrize("lab", book.labs())
-SMALL = "start_here"  # a ten-minute lab with one exercise and one prediction
+SHORT = ("start_here", "rotor", "conveyor")  # labs of at most half an hour, with one exercise
 
 
 def cells(lab):
     return json.loads(LABS[lab].read_text(encoding="utf-8"))["cells"]
+
+
+def words_of(lab):
+    return "\n\n".join("".join(c["source"]) for c in cells(lab) if c["cell_type"] == "markdown")
 
 
 def code(lab):
@@ -40,10 +44,19 @@ def code(lab):
 @every_lab
 def test_lab_contains_its_predictions_and_exercises_in_order(lab):
     asked = re.findall(r'^predict\("([\w.]+)"\)$', code(lab), re.M)
-    assert asked == [p for p in PREDICTIONS if p.startswith(f"{lab}.")]
+    assert asked == book.ids(lab, "predictions")
     checked = re.findall(r'^check\("([\w.]+)",', code(lab), re.M)
-    assert checked == [e for e in EXERCISES if e.startswith(f"{lab}.")]
-    assert len(asked) <= 10 and len(checked) == (1 if lab == SMALL else 3)
+    assert checked == book.ids(lab, "exercises")
+    assert len(asked) <= 10 and len(checked) == (1 if lab in SHORT else 3)
+
+
+def test_no_two_labs_ask_a_prediction_with_the_same_id():
+    assert len(set(PREDICTIONS)) == len(PREDICTIONS)
+    moved = {p for lab in book.labs() for p in book.lab(lab).moved.values()}
+    assert moved <= set(PREDICTIONS)
+    for name in moved:  # the lab that asked it first does not give its number to another one
+        first, _, number = name.partition(".")
+        assert number not in book.lab(first).predictions, name
 
 
 @every_lab
@@ -61,7 +74,7 @@ def test_exercise_titles_and_optional_predictions_match_the_lab(lab):
 def test_every_objective_is_practised_and_named_in_the_lab(lab, monkeypatch):
     monkeypatch.setattr(course, "_verdicts", {})
     made = book.lab(lab)
-    assert len(made.objectives) == (1 if lab == SMALL else 3)
+    assert len(made.objectives) == (1 if lab in SHORT else 3)
     numbers = set(range(1, len(made.objectives) + 1))
     assert {e.objective for e in made.exercises.values()} == numbers
     kinds = {type(e) for e in made.exercises.values()}
@@ -71,6 +84,14 @@ def test_every_objective_is_practised_and_named_in_the_lab(lab, monkeypatch):
     plain = re.sub(r"[*\s]+", " ", words)
     for objective in made.objectives:
         assert objective.rstrip(".;") in plain, objective
+    if lab in SHORT[1:]:  # questions practise what no exercise does
+        listed = re.search(r"\*\*You will be able to\*\*\n\n(.*?)\n\n", words_of(lab), re.S)[1]
+        parts = re.findall(r"\((exercise 1|question in section \d)\)[;.]$", listed, re.M)
+        assert len(parts) == 3 == listed.count("\n") + 1 and "exercise 1" in parts
+        sections = re.split(
+            r"^## (?=\d)", "\n".join("".join(c["source"]) for c in cells(lab)), flags=re.M
+        )
+        assert all("predict(" in sections[int(p[-1])] for p in parts if p[0] == "q")
 
 
 @every_lab
@@ -86,7 +107,7 @@ def test_last_cell_of_the_section_your_turn_makes_the_report(lab):
 
 @pytest.mark.parametrize("name", EXERCISES)
 def test_untouched_exercise_counts_as_unanswered(name):
-    lab, _, number = name.partition(".")
+    lab = book.home(name)
     kept = [
         "".join(c["outputs"][0]["data"]["text/plain"])
         for c in cells(lab)
@@ -217,7 +238,7 @@ def test_prediction_has_one_correct_option_and_each_option_has_a_reason(name):
 
 @pytest.mark.parametrize("name", PREDICTIONS)
 def test_reasons_of_predictions_do_not_appear_in_the_lab(name):
-    lab, _, number = name.partition(".")
+    lab = book.home(name)
     _, options, right = filled(book.find(name, "predictions"))
     open_words = []
     for cell in cells(lab):

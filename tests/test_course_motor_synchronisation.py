@@ -5,11 +5,9 @@ import re
 
 import numpy as np
 import pytest
-from scipy.integrate import solve_ivp
 
 from robokin import deg, loader_arm
 from robokin.course import book, check, solution, variant
-from robokin.course.questions import filled
 from robokin.jobs.steppers import counts, frequencies, shortest_turn, station_postures
 
 A, B = 0.45, 0.3
@@ -209,33 +207,3 @@ def test_messages_about_drives_show_different_numbers_and_not_the_answer():
     assert runs != allowed
     text = {"gears": ["50", "50", "50"], "frequencies": [1, 2, 3]}
     assert check("motor_synchronisation.2", text, who="Ada").mistake == "another kind or shape"
-
-
-def test_another_integrator_also_loses_steps_in_multiples_of_four():
-    # p10 is computed with SciPy, without the windings' time constant, which does not change it
-    def lost(frequency):
-        theta, omega, since, ends = (
-            0.0,
-            0.0,
-            0.0,
-            [*np.arange(1, 49) / frequency, 48 / frequency + 1],
-        )
-        for k, end in enumerate(ends):
-            found = solve_ivp(
-                lambda _, y, k=k: [
-                    y[1],
-                    (0.02 * math.sin(k * TURN / 4 - y[0]) - 6e-5 * y[1]) / 1e-6,
-                ],
-                (since, end),
-                (theta, omega),
-                rtol=1e-7,
-                atol=1e-9,
-            )
-            (theta, omega), since = found.y[:, -1], end
-        return 48 - theta / (TURN / 4)
-
-    answers = [lost(f) for f in (100, 150, 200)]
-    assert answers == pytest.approx([4 * round(n / 4) for n in answers], abs=0.01)
-    assert round(answers[0]) == 0 and all(4 < n < 49 for n in answers[1:])
-    options, right = filled(LAB.predictions["p10"])[1:]
-    assert options[right].text.startswith("Only 4, 8, 12")

@@ -17,8 +17,8 @@ import test_browser
 from conftest import awake, until
 from playwright.sync_api import expect
 
+from robokin.course import book, predict
 from robokin.course import guesses as hub
-from robokin.course import predict
 from robokin.course.copies import copy
 from robokin.course.guesses import Guess, guesses, keep, parse_line, read_guesses
 from robokin.course.handed_in import handed_in
@@ -28,7 +28,7 @@ page = test_browser.page  # records errors and requests to other hosts
 LAB = "irb140_motion"
 P1, P2 = f"{LAB}.p1", f"{LAB}.p2"
 OTHER = "scara_motion.p1"
-TYPED = next(f"{LAB}.{n}" for n, p in hub.lab(LAB).predictions.items() if p.unit)
+TYPED = next(p for p in book.ids(LAB, "predictions") if book.find(p, "predictions").unit)
 KEPT = "Saved for your report."
 RUN = "Saved in this browser only. Run > Run All Cells saves it for your report."
 
@@ -241,9 +241,22 @@ def test_guesses_are_saved_next_to_the_current_notebook(tmp_path):
 
 def test_line_of_guesses_is_parsed_or_refused():
     assert parse_line("") == parse_line("  ") == {}
-    made = {"p1": "b", "p10": "a", "p5": "-290", "p6": "1e-3"}
-    assert list(parse_line(" p1 b,p10  a , p5 -290,p6 1e-3").items()) == list(made.items())
-    for wrong in ("p1", "p1 b p2 c", "p1 b,", "1 b", "p1 <b>", "p1 b, p1 c", "b", "p1: b", "p1 g"):
+    made = {"p1": "b", "p10": "a", "p5": "-290", "p6": "1e-3", OTHER: "c"}
+    line = f" p1 b,p10  a , p5 -290,p6 1e-3, {OTHER} c"
+    assert list(parse_line(line).items()) == list(made.items())
+    for wrong in (
+        "p1",
+        ".p1 b",
+        "a/b.p1 b",
+        "p1 b p2 c",
+        "p1 b,",
+        "1 b",
+        "p1 <b>",
+        "p1 b, p1 c",
+        "b",
+        "p1: b",
+        "p1 g",
+    ):
         with pytest.raises(ValueError, match="guesses: wanted"):
             parse_line(wrong)
 
@@ -450,7 +463,7 @@ def test_copy_button_copies_all_guesses_of_one_page(page, tmp_path):
     button = page.get_by_role("button", name="Copy my guesses for the report")
     assert button.count() == 1 and one.get_by_role("button").last.inner_text().startswith("Copy my")
     button.click()
-    line = f"{TYPED.partition('.')[2]} -290, p1 b, p2 c"
+    line = f"{TYPED.partition('.')[2]} -290, p1 b, {OTHER} d, p2 c"
     assert page.evaluate("copied") == f'report(who, guesses="{line}")'
     assert parse_line(line)
     page.goto(bob.as_uri())

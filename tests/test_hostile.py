@@ -486,10 +486,10 @@ def test_report_opens_each_question_with_the_first_guess():
     assert '"choice":null' in again(stored, "n", {})
     assert '"choice":null' in again(stored, "n", {"irb140_motion.p1": "no letter"})
     number = next(
-        f"{lab}.{n}"
+        name
         for lab in book.labs()
-        for n, each in book.lab(lab).predictions.items()
-        if each.unit
+        for name in book.ids(lab, "predictions")
+        if book.find(name, "predictions").unit
     )
     assert '"choice":"-12.5"' in again(predict(number).html, "n", {number: "-12.5"})
     assert '"choice":null' in again(predict(number).html, "n", {number: "nan"})
@@ -667,7 +667,7 @@ def test_deep_nesting_is_detected():
 
 
 LABS = {path.stem[:2]: path for path in NOTEBOOKS.glob("[0-9]*.ipynb")}
-SAMPLE = ("03", "08", "09", "10", "11")  # these labs contain every kind of view
+SAMPLE = ("03", "08", "09", "10", "13")  # these labs contain every kind of view
 AWAKE = """() => [...document.querySelectorAll(".robokin-player")]
   .filter(each => each.checkVisibility())
   .map(each => "ready" in each.dataset && !each.querySelector(":scope > img"))"""
@@ -689,9 +689,9 @@ def report_of(path, folder):
     if slug in book.labs():
         data["lab"] = slug
         data["predictions"] = [
-            {"id": f"{slug}.{n}", "choice": None, "right": None, "confusion": None}
+            {"id": name, "choice": None, "right": None, "confusion": None}
             | {"when": None, "later": []}
-            for n in book.lab(slug).predictions
+            for name in book.ids(slug, "predictions")
         ]
     page = folder / f"{path.stem}.html"
     page.write_text(page_of(data, notebook, path.parent), encoding="utf-8")

@@ -168,9 +168,15 @@ def test_three_of_eight_rows_are_usable_at_six_seconds():
 
 def test_first_come_rule_wins_at_the_stated_belt_speed():
     v, missed, total = said(
-        "08", "belt-row", r"at (\d+) mm/s it misses (\d+) of the (\d+), and \"first come.*all\."
+        "14",
+        "belt-curve-look",
+        r"at (\d+) mm/s it misses (\d+) of the (\d+), and \"first come.*all\.",
     )
-    assert v * mm in tries("08", "belt-work")
+    assert f"`{v:.0f} * mm`" in cells("14")["belt-curve-look"]
+    assert (
+        "v_belt = " in cells("14")["belt-work"]
+        and "uneven = spaced(200, GAP, 0.5)" in cells("14")["belt-work"]
+    )
     y = np.linspace(-400, 400, 161) * mm
     window = np.stack([0 * y + 600 * mm, y, 0 * y + 50 * mm], axis=-1)
     home = principal_postures(500 * mm, 400 * mm, np.array([150, -450, 250]) * mm)
@@ -569,8 +575,8 @@ def test_rounded_positions_stay_within_half_a_pulse():
 
 
 def test_start_frequency_and_lost_steps_are_as_stated(capsys):
-    torque, inertia, damping = said("11", "missed-code", r"M, J, b = (\S+), (\S+), (\S+) #")
-    made = run("11", "opening-setup", "missed-code")
+    torque, inertia, damping = said("13", "missed-code", r"M, J, b = (\S+), (\S+), (\S+) #")
+    made = run("13", "opening", "setup", "missed-code")
     top = int(re.search(r"start frequency: (\d+) pulses/s", capsys.readouterr().out)[1])
     motor = made["motor"]
 
@@ -589,7 +595,12 @@ def test_start_frequency_and_lost_steps_are_as_stated(capsys):
         return round(state[0] / (np.pi / 2))
 
     assert steps(top) == 48 > steps(top + 1)
-    assert "motor_explorer(motor)" in cells("11")["missed-explorer"]
+    top_said, after, lost = said(
+        "13", "missed-look", r"At (\d+) pulses .* at (\d+) it loses (\d+)\."
+    )
+    assert (top_said, after, lost) == (top, top + 1, 48 - steps(top + 1))
+    assert "motor_explorer(motor)" in cells("13")["load-explorer"]
+    assert motor == made["Stepper"](rise=0), "the motor of the first view"
     assert repr(motor_explorer(motor)).endswith("44 steps lost.")
     _, options, _ = asked("motor_synchronisation.p10")
     assert f"loses {48 - steps(160)} of 48" in options[2].reason
@@ -601,9 +612,9 @@ def test_start_frequency_and_lost_steps_are_as_stated(capsys):
     assert min(lost - {0}) == few
 
 
-def test_lab_11_does_not_mention_missing_tables():
+def test_labs_on_motors_do_not_mention_missing_tables():
     question, _, _ = asked("motor_synchronisation.p10")
-    texts = [question, *cells("11").values()]
+    texts = [question, *cells("11").values(), *cells("13").values()]
     assert not [text for text in texts if re.search(r"\btable \d", text)]
 
 

@@ -352,23 +352,14 @@ def test_with_finer_steps_the_stated_number_of_lines_remains():
 
 
 def test_first_come_rule_meets_its_objects_where_stated():
-    text = flat("08", "belt-row")
+    text = flat("14", "belt-row")
     assert "each of its first seven objects farther from the bin than the one before" in text
     assert "from the fourth on in the far two fifths" in text
     passed, near, taken = numbers(
         r"lets (\d+) of the 200 pass, and meets (\d+) of its (\d+) in the near quarter", text
     )
-    made = run_cells(
-        "08",
-        "opening",
-        "setup",
-        "chain-code",
-        "inverse-code",
-        "time-code",
-        "belt-code",
-        "belt-work",
-    )
-    far = principal_postures(500 * mm, 400 * mm, made["window"]) - made["q_bin"]
+    made = run_cells("14", "setup", "belt-code", "belt-work")
+    far = principal_postures(500 * mm, 400 * mm, made["WINDOW"]) - made["q_bin"]
     assert (np.diff(abs(far).max(axis=-1)) > 0).all(), (
         "places farther along the belt are farther from the bin"
     )

@@ -262,15 +262,13 @@ def test_lost_steps_with_and_without_a_ramp_are_as_stated():
         assert min(f for f, n in lost.items() if n) == at and not any(n % 4 for n in lost.values())
         behind = [n for f, n in lost.items() if f >= at]
         assert [min(behind), max(behind)] == [low, high]
-    text = flat("11", "short")
-    f, seconds = numbers(r"at (\d+) pulses/s a ramp of (\S+) s mends that for the motor", text)
-    assert (
-        motor.run(ramp(48, f, f, 0), ones).lost
-        > 0
-        == motor.run(ramp(48, 40, f, seconds), ones).lost
-    )
-    assert "(section 8 measures the second)" in flat("11", "pulses")
-    assert re.search(r"maximum start frequency: \d+ pulses/s", shown("11", "missed-code"))
+    text = flat("13", "title")
+    f, lost = numbers(r"At (\d+) pulses per second this motor loses (\d+) of 48 steps", text)
+    assert "With a ramp of a tenth of a second it loses none." in text
+    assert motor.run(ramp(48, f, f, 0), ones).lost == lost > 0
+    assert motor.run(ramp(48, 40, f, 0.1), ones).lost == 0
+    assert "([lab 13](13_rotor.ipynb) measures the second)" in flat("11", "pulses")
+    assert re.search(r"maximum start frequency: \d+ pulses/s", shown("13", "missed-code"))
 
 
 # --- Lab 12 ---------------------------------------------------------------------------------------

@@ -19,6 +19,7 @@ from test_true_statements_f import one_line, option, says
 
 from robokin import deg, dh_links, elbow_arm, spbu_arm
 from robokin.course import book, check, variant
+from robokin.show import conveyor_player
 
 TRAPS = book.find("visit_and_collect.3", "exercises")
 LEVERS = book.find("three_levers.1", "exercises")
@@ -264,7 +265,7 @@ def arms_needed(v, spread, seed):
 
 
 def test_belt_table_shows_one_stream_and_other_streams_need_one_more_arm():
-    words = flat("08", "belt-look")
+    words = flat("14", "belt-look")
     assert "at all six speeds. At spread 0.5 it is one arm too few at three of them, at" in words
     assert "at spread 1 at five. These are the streams of one order of the gaps, `seed=8`." in words
     assert (
@@ -284,25 +285,28 @@ def test_belt_table_shows_one_stream_and_other_streams_need_one_more_arm():
         assert (arms_needed(0.2, 1, seed), arms_needed(0.3, 1, seed)) == (4, 5)
 
 
-def test_belt_player_shows_the_streams_of_the_table():
-    assert "six seconds of the table's streams at 200 mm/s" in flat("08", "belt-look")
-    made = quietly("08", "opening", "setup", "chain-code", "belt-code", "belt-motion")
-    head = cells("08")["belt-player"].split("\nedge, side")[0]
-    exec(compile(head, "belt-player", "exec"), made)
-    clock = made["belt_clock"]
-    assert clock[-1] - clock[0] == 6 and made["v_row"] == 0.2
-    busy = []
-    for k, spread in enumerate(made["player_spreads"]):
+def test_belt_player_shows_the_streams_of_the_table(monkeypatch):
+    assert "six seconds from the middle of a stream of 200 objects, at 200 mm/s" in flat(
+        "14", "able"
+    )
+    assert "conveyor_player(v=0.2, spreads=[0, 0.5, 1])" in cells("14")["opening"]
+    # `animate` returns its arguments
+    monkeypatch.setattr("robokin.show.conveyor.animate", lambda *given, **named: (given, named))
+    (_, clock, _), named = conveyor_player(v=0.2, spreads=[0, 0.5, 1])
+    assert clock[-1] - clock[0] == 6 and 0 < clock[0] < 150 - 6  # 30 m of objects at 0.2 m/s
+    (brought,), busy = named["quantities"].values(), []
+    for k, spread in enumerate([0, 0.5, 1]):
         left = belt_stream(spread, 8) / 0.2
         for arm in range(3):
             # the second and third arms are each 1 m farther along the belt than the arm before them
             backs, left = one_arm(np.array(left) + (arm > 0) * 5.0, 0.2)
-            wanted = [sum(back <= now for back in backs) for now in clock]
-            assert made["in_bin"][arm][k].tolist() == wanted
+            wanted = [sum(clock[0] < back <= now for back in backs) for now in clock]
+            assert brought[arm][k].tolist() == wanted
+            assert named["readings"][f"arm {arm + 1}"][k].tolist() == wanted
         assert not left  # three arms are enough, as the table says
-        busy.append(wanted[-1] - wanted[0])
+        busy.append(wanted[-1])
     # arm 3 picks objects only at spreads 0.5 and 1
-    assert busy[0] == 0 and busy[1] > 0 and busy[2] > busy[1]
+    assert busy[0] == 0 and busy[1] > 0 and busy[2] > 0
 
 
 def test_changing_only_alpha_to_plus_90_mirrors_the_arm_in_the_floor():

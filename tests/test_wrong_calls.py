@@ -375,6 +375,10 @@ CALLS = {
         figures.plan_explorer,
         dict(arm=LEVERS, posture=FOLDED, target=POINT, obstacle=OBSTACLE),
     ),
+    "conveyor_player": (
+        figures.conveyor_player,
+        dict(v=0.2, spreads=np.array([0.0, 0.5, 1.0]), arms=3),
+    ),
     "singularity_explorer": (
         figures.singularity_explorer,
         dict(arm=IRB140, q=np.zeros(6), way=(0.0, 1.0, 1.0), most=0.02, step=0.001),
@@ -475,6 +479,7 @@ CALLS = {
     "visit_collect.answer": (visit_collect.answer, dict(task=TASK, above_floor=False)),
     "visit_collect.report": (visit_collect.report, dict(task=TASK, result=RESULT)),
     "conveyor.spaced": (conveyor.spaced, dict(count=4, gap=0.15, spread=0.5, seed=3)),
+    "conveyor.ways_from": (conveyor.ways_from, dict(bin_place=np.array([0.2, -0.3, 0.2]))),
     "conveyor.Trips": (conveyor.Trips, _fields(conveyor.serve([0.1], 0.1, S, S + 1)[0])),
     "conveyor.serve": (
         conveyor.serve,

@@ -1,5 +1,6 @@
 """Find exercises and predictions by id: "irb140_motion.1" is exercise 1 of the lab whose notebook
-is NN_irb140_motion.ipynb; "irb140_motion.p2" is a prediction of that lab.
+is NN_irb140_motion.ipynb; "irb140_motion.p2" is a prediction of that lab. A prediction that moves
+to another lab keeps its id.
 
 Their text is in one folder per lab, in notebooks/exercises. The environment variable
 ROBOKIN_EXERCISES lists additional folders of this kind, for your own labs or if robokin was not
@@ -11,10 +12,12 @@ import hashlib
 import importlib
 import inspect
 import os
+import re
 import sys
 import textwrap
 import traceback
-from collections.abc import Callable, Iterator, Mapping
+from collections import Counter
+from collections.abc import Callable, Iterable, Iterator, Mapping
 from dataclasses import replace
 from functools import cache, cached_property, partial
 from pathlib import Path
@@ -90,6 +93,17 @@ class Lab:
                         raise BadFile(f"{file}", line, f"{number} occurs twice")
                     found[number] = replace(each, view=partial(self._view, number))
         return found
+
+    @cached_property
+    def moved(self) -> Mapping[str, str]:
+        """The ids of the predictions that another lab asked first, by number: their headings have
+        the whole id.
+        """
+        with contextlib.suppress(BadFile):  # `predictions` notes that there is no such file
+            text = markdown.read(self.folder / "predictions.md")
+            found: list[str] = re.findall(r"^## (\w+\.p\d+)", text, re.M)
+            return {name.partition(".")[2]: name for name in found}
+        return {}
 
     def _view(self, number: str) -> Any:
         """The view that shows the answer to a prediction. Only this method imports the drawing
@@ -221,22 +235,43 @@ def titled(name: str) -> str:
     return f"lab {list(labs()).index(name):02}, {name.replace('_', ' ')}"
 
 
+def ids(slug: str, what: str) -> list[str]:
+    """The ids of the exercises or predictions of a lab, in its order. `what` is "exercises" or
+    "predictions". Raises ValueError if there is no such lab.
+    """
+    made = lab(slug)
+    return [made.moved.get(number, f"{slug}.{number}") for number in getattr(made, what)]
+
+
+def home(name: str) -> str:
+    """The lab that asks the prediction with this id, or sets the exercise: the one in the id,
+    unless the prediction has moved. Does not check whether there is such a lab.
+    """
+    asking = (slug for slug, made in labs().items() if name in made.moved.values())
+    return next(asking, name.partition(".")[0])
+
+
+def lab_of(names: Iterable[str]) -> str | None:
+    """The lab to which most of these ids belong, or None if they belong to no lab."""
+    found = Counter(slug for slug in map(home, names) if slug in labs())
+    return found.most_common(1)[0][0] if found else None
+
+
 def find(name: Any, what: str) -> Any:
     """Find an exercise or a prediction by id; an exercise is returned unchanged. `what` is
     "exercises" or "predictions". Raises ValueError if there is none or it cannot be read.
     """
     if isinstance(name, Exercise):
         return name
-    slug, dot, number = str(name).partition(".")
-    known = labs()
+    text, known = str(name), labs()
+    slug, (_, dot, number) = home(text), text.partition(".")
     if known and (slug not in known or not dot):
         raise ValueError(
             f'id: wanted an id such as "{next(iter(known))}.1", from one of the labs '
             f"{', '.join(known)}; got {name!r}. {MORE}"
         )
-    entries, broken = getattr(lab(slug), what), lab(slug).broken
-    if number not in entries:
-        ids = ", ".join(f"{slug}.{each}" for each in entries)
-        wanted = f"wanted one of {ids}" if ids else f"{slug} has no {what}"
-        raise ValueError("\n".join([f"id: {wanted}, got {name!r}", *broken.values()]))
-    return entries[number]
+    valid = ids(slug, what)
+    if text not in valid:
+        wanted = f"wanted one of {', '.join(valid)}" if valid else f"{slug} has no {what}"
+        raise ValueError("\n".join([f"id: {wanted}, got {name!r}", *lab(slug).broken.values()]))
+    return getattr(lab(slug), what)[number]

@@ -24,7 +24,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any, TypeAlias
 
 from .._validate import short
-from .book import find, lab
+from .book import find, home, ids, lab_of
 from .copies import alone, write
 from .predictions import worked_out
 from .questions import chosen_option
@@ -35,6 +35,7 @@ if TYPE_CHECKING:
 FOLDER, FILE = ".robokin", "guesses.json"
 LARGE = 1_000_000  # maximum number of bytes in a file of guesses; usually there are a few thousand
 NAME = re.compile(r"\w{1,60}\.p[0-9]{1,3}", re.ASCII)
+IN_LINE = re.compile(r"(?:\w{1,60}\.)?p[0-9]{1,3}", re.ASCII)
 CHOICE = re.compile(r"[a-f](?:: [^\r\n]{1,60})?|[-+.eE0-9]{1,30}")  # "b", "b: joint 3", "-290"
 ASKED = re.compile(rb"""predict\(\s*\\?["'](\w{1,60}\.p[0-9]{1,3})""")  # a call in a notebook
 PATIENCE = 10  # seconds to wait for another kernel that is writing
@@ -91,8 +92,9 @@ def keep(path: Path, made: Iterable[tuple[str, str, str]]) -> None:
 
 
 def parse_line(text: str) -> dict[str, str]:
-    """Parse the line copied from a page: "p1 b, p3 a, p5 -290" gives {"p1": "b", ...}, in order.
-    Raises ValueError if the format is wrong, and TypeError if it is not text.
+    """Parse the line copied from a page: "p1 b, p3 a, p5 -290" gives {"p1": "b", ...}, in order. A
+    prediction from another lab has its whole id. Raises ValueError if the format is wrong, and
+    TypeError if it is not text.
     """
     if not isinstance(text, str):
         raise TypeError(f"guesses: wanted the line copied from a page, got {short(text)}")
@@ -100,7 +102,7 @@ def parse_line(text: str) -> dict[str, str]:
     for part in text.split(",") if text.strip() else ():
         number, _, choice = part.strip().partition(" ")
         choice = choice.strip()
-        if not re.fullmatch("p[0-9]{1,3}", number) or not CHOICE.fullmatch(choice):
+        if not IN_LINE.fullmatch(number) or not CHOICE.fullmatch(choice):
             raise ValueError(f'guesses: wanted choices such as "p1 b, p5 -290", got {short(part)}')
         if number in found:
             raise ValueError(f"guesses: wanted one choice for each prediction, got {number} twice")
@@ -130,9 +132,10 @@ class Guess:
 
 
 def guesses(handed: "HandedIn", remarks: list[str] | None = None) -> tuple[Guess, ...]:
-    """Return the results of the predictions without running any code. Guesses saved by a kernel
-    come first, then those in the line copied from a page, then the choice in the cell. Unusable
-    guesses are reported in `remarks`.
+    """Return the results of the predictions of the notebook's lab without running any code.
+    Guesses saved by a kernel come first, then those in the line copied from a page, then the
+    choice in the cell. An older notebook may ask predictions that have moved to another lab: those
+    that have a guess come last. Unusable guesses are reported in `remarks`.
     """
     kept: Kept = {}
     pasted: dict[str, str] = {}
@@ -145,13 +148,15 @@ def guesses(handed: "HandedIn", remarks: list[str] | None = None) -> tuple[Guess
         pasted = parse_line(handed.guesses)
     except ValueError as error:
         remarks.append(f"{error}.")
+    own = ids(handed.lab, "predictions") if handed.lab else []
+    moved = [p for p in handed.asked if p.startswith(f"{handed.lab}.") and p not in own]
     made = []
-    for number in lab(handed.lab).predictions if handed.lab else ():
-        name = f"{handed.lab}.{number}"
-        line, call = pasted.get(number), handed.choices.get(name)
+    for name in [*own, *moved]:
+        line, call = pasted.get(name.partition(".")[2], pasted.get(name)), handed.choices.get(name)
         others = [line, _literal(call.answer) if call else None]
         timeless = [(choice, None) for choice in others if choice is not None]
-        made.append(_guess(name, [*kept.get(name, ()), *timeless]))
+        guess = _guess(name, [*kept.get(name, ()), *timeless])
+        made += [guess] if guess.choice is not None or name in own else []
     if handed.lab and not any(each.choice for each in made):
         remarks += _beside(handed.path, handed.lab)
     return tuple(made)
@@ -165,7 +170,7 @@ def _beside(path: Path, slug: str) -> list[str]:
     with contextlib.suppress(OSError, ValueError):  # `remarks` already has the error
         for name, kept in _stored(path.parent / FOLDER / FILE).items():
             first = {p: made[0][0] for p, made in kept.items() if made and _known(p)}
-            mine = {p.partition(".")[2]: c for p, c in first.items() if p.startswith(f"{slug}.")}
+            mine = {p.partition(".")[2]: c for p, c in first.items() if home(p) == slug}
             if mine and name != path.name:
                 found.append((name, ", ".join(f"{number} {c}" for number, c in mine.items())))
     return [
@@ -284,14 +289,15 @@ def _known(name: str) -> bool:
 
 def _name(notebooks: dict[str, Kept], path: Path) -> str:
     """The key of a notebook's guesses: its own name or, if it was renamed, its previous name. It
-    counts as renamed if exactly one notebook with its predictions no longer exists.
+    counts as renamed if exactly one notebook of its lab with its predictions no longer exists.
     """
     if path.name in notebooks:
         return path.name
     gone = [name for name in notebooks if not os.path.lexists(os.path.join(path.parent, name))]
     content = path.read_bytes() if gone and path.is_file() else b""
     asked = {found.decode() for found in ASKED.findall(content)}
-    own = [name for name in gone if not asked.isdisjoint(notebooks[name])]
+    mine = (name for name in gone if not asked.isdisjoint(notebooks[name]))
+    own = [name for name in mine if lab_of(notebooks[name]) == lab_of(asked)]
     return own[0] if len(own) == 1 else path.name
 
 

@@ -10,12 +10,11 @@ import re
 import subprocess
 import sys
 import time
-from collections import Counter
 from collections.abc import Iterable
 from pathlib import Path
 from typing import Any, NamedTuple
 
-from .book import labs
+from .book import lab_of
 from .guesses import own_notebook, parse_line
 from .note import Note
 from .reported import counted, report_data
@@ -29,7 +28,7 @@ START = (  # runs this copy of robokin, not one in the notebook's folder
     f"import sys; sys.path.insert(0, {TOP!r}); from robokin.course.__main__ import main; "
     "sys.path.pop(0); sys.exit(main())"
 )
-IDS = re.compile(r"""["'](\w+)\.p?\d+["']""")
+IDS = re.compile(r"""["'](\w+\.p?\d+)["']""")
 CALL, ANSWER = re.compile(r"\breport\("), re.compile(r"\b(check|predict)\(|\b(def|class) ")
 
 
@@ -125,8 +124,7 @@ def _may_be(path: Path, lab: str | None) -> bool:
 
 def _lab(sources: Iterable[str]) -> str | None:
     """The lab whose ids occur most often in these cells."""
-    found = Counter(lab for source in sources for lab in IDS.findall(source) if lab in labs())
-    return found.most_common(1)[0][0] if found else None
+    return lab_of(name for source in sources for name in IDS.findall(source))
 
 
 def _cells(path: Path) -> list[str]:

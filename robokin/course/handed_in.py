@@ -13,7 +13,6 @@ import os
 import re
 import threading
 import warnings
-from collections import Counter
 from collections.abc import Iterator
 from dataclasses import dataclass
 from pathlib import Path
@@ -22,7 +21,7 @@ from typing import Any, NamedTuple
 import nbformat
 
 from .._validate import short
-from .book import lab, labs
+from .book import home, ids, lab_of, labs
 from .texts import ALL_BUT_HALVES, all_visible
 
 NONE = "your name"  # the placeholder for the student's name in the labs
@@ -53,6 +52,7 @@ class HandedIn:
     """A student's notebook.
 
     lab      the lab whose exercises and predictions it contains, or None
+    asked    the predictions that the notebook asks
     checks   the last call for each exercise, which is the one that counts
     choices  the last call with a choice for each prediction
     broken   the ids of exercises that are checked in cells that are not valid Python, with the
@@ -64,6 +64,7 @@ class HandedIn:
     path: Path
     notebook: Any
     lab: str | None
+    asked: tuple[str, ...]
     checks: dict[str, Call]
     choices: dict[str, Call]
     broken: dict[str, str]
@@ -89,7 +90,7 @@ def handed_in(path: Path) -> HandedIn:
     checks: dict[str, Call] = {}
     choices: dict[str, Call] = {}
     broken: dict[str, str] = {}
-    named: Counter[str] = Counter()
+    named: list[str] = []
     strange: dict[str, None] = {}
     guesses, room = "", ALL_CODE
     for k, cell in enumerate(notebook.cells):
@@ -115,17 +116,16 @@ def handed_in(path: Path) -> HandedIn:
                 if what == "check":
                     strange[call.name] = None
                 continue
-            named[call.name.partition(".")[0]] += 1
+            named.append(call.name)
             if what == "check":
                 checks[call.name] = call
                 broken.pop(call.name, None)
             elif call.answer not in ("", "None"):
                 choices[call.name] = call
-    named.update(name.partition(".")[0] for name in broken)
-    most = [slug for slug, _ in named.most_common()]
-    most = most or [slug for slug in labs() if slug in path.stem.lower()]
-    lab_ = most[0] if most else None
-    return HandedIn(path, notebook, lab_, checks, choices, broken, guesses, tuple(strange))
+    in_name = (slug for slug in labs() if slug in path.stem.lower())
+    lab_ = lab_of([*named, *broken]) or next(in_name, None)
+    asked = tuple(name for name in dict.fromkeys(named) if _known(name, "predictions"))
+    return HandedIn(path, notebook, lab_, asked, checks, choices, broken, guesses, tuple(strange))
 
 
 def claims(notebook: Any, checks: dict[str, Call]) -> dict[str, str]:
@@ -236,8 +236,7 @@ def _claimed(cell: Any) -> Iterator[tuple[str, str]]:
 
 def _known(name: str, what: str) -> bool:
     """Return whether an exercise (`what` is "exercises") or a prediction with this id exists."""
-    slug, _, number = name.partition(".")
-    return slug in labs() and number in getattr(lab(slug), what)
+    return home(name) in labs() and name in ids(home(name), what)
 
 
 def _calls(source: str, cell: int) -> Iterator[tuple[str, Call]]:

@@ -25,7 +25,7 @@ from typing import Any, NamedTuple
 
 import nbformat
 
-from .book import find, lab
+from .book import find, ids
 from .guesses import Guess as Guess
 from .guesses import guesses as guesses
 from .handed_in import NONE, Call, HandedIn, claims
@@ -86,7 +86,7 @@ def judge_notebook(handed: HandedIn, who: str | None, limits: Limits = LIMITS) -
     threads may judge at the same time. Raises OSError if a kernel cannot be started.
     """
     notebook = nbformat.from_dict(handed.notebook)
-    names = _ids(handed.lab, "exercises")
+    names = ids(handed.lab, "exercises") if handed.lab else []
     checks = {name: call for name, call in handed.checks.items() if name in names}
     before = claims(notebook, checks)
     run = NotebookRun(notebook, checks, who, limits)
@@ -363,10 +363,6 @@ def _unwanted(folder: str, names: list[str]) -> list[str]:
         if name.startswith(".") or not small:
             unwanted.append(name)
     return unwanted
-
-
-def _ids(slug: str | None, what: str) -> list[str]:
-    return [f"{slug}.{n}" for n in getattr(lab(slug), what)] if slug else []
 
 
 def _differences(

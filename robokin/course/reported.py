@@ -13,7 +13,7 @@ from datetime import datetime
 from typing import Any
 
 from .._validate import short
-from .book import MORE, find, lab, labs
+from .book import MORE, find, home, ids, labs
 from .texts import visible
 from .variants import normalised
 
@@ -124,18 +124,27 @@ def _known(
     what: str,
     checked: Callable[[dict[str, Any]], dict[str, Any]],
 ) -> list[dict[str, Any]]:
-    """The entries for the lab's exercises or predictions, in the order of the lab."""
-    known = [f"{slug}.{number}" for number in getattr(lab(slug), what)] if slug else []
+    """The entries for the lab's exercises or predictions, in the order of the lab. An older report
+    may contain predictions that have moved to another lab: those that were made come last.
+    """
+    known = ids(slug, what) if slug else []
     found: dict[str, dict[str, Any]] = {}
     for each in _list(data, what):
         name = each.get("id") if isinstance(each, dict) else None
-        if not isinstance(name, str) or name not in known or name in found:
+        if not isinstance(name, str) or name in found or not _belongs(name, slug, what):
             raise ValueError(f"{what}: wanted each id of the lab {slug} once, got {short(name)}")
         try:
             found[name] = checked(each)
         except ValueError as error:
             raise ValueError(f"{name}: {error}") from None
-    return [found[name] for name in known if name in found]
+    late = [name for name in found if name not in known and found[name]["choice"] is not None]
+    return [found[name] for name in [*known, *late] if name in found]
+
+
+def _belongs(name: str, slug: str | None, what: str) -> bool:
+    """Whether an exercise or a prediction belongs to a lab, or did before it moved."""
+    own, from_here = home(name), name.startswith(f"{slug}.")
+    return own in labs() and (own == slug or from_here) and name in ids(own, what)
 
 
 def _one_of(data: dict[str, Any], name: str, known: tuple[Any, ...]) -> Any:

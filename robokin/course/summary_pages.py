@@ -23,7 +23,7 @@ from markupsafe import Markup, escape
 
 from ..show.palette import ALARM, AXIS_COLORS, PAGE
 from ..show.saving import write_page
-from .book import find, lab, labs, titled
+from .book import find, home, lab, labs, titled
 from .predictions import chosen, worked_out
 from .report_page import exercise_title, portable
 from .reported import counted
@@ -94,8 +94,8 @@ def _most(found: dict[tuple[str, str], list[str]]) -> list[tuple[str, str, list[
     rows = [(name, what, who) for (name, what), who in found.items()]
 
     def place(row: tuple[str, str, list[str]]) -> Any:
-        slug, _, number = row[0].partition(".")
-        place = list(labs()).index(slug), int(number.lstrip("p"))  # p9 before p10
+        number = row[0].partition(".")[2].lstrip("p")
+        place = list(labs()).index(home(row[0])), int(number)  # p9 before p10
         return *place, -len(row[2]), row[1]
 
     return sorted(rows, key=place)
@@ -205,7 +205,7 @@ def _templates() -> jinja2.Environment:
         trim_blocks=True,
     )
     pages.filters |= {"words": _words, "asked": _asked, "time": _time, "kind": _kind}
-    pages.filters |= {"titled": titled, "title": exercise_title}
+    pages.filters |= {"home": home, "titled": titled, "title": exercise_title}
     pages.globals |= {"chosen": chosen, "counted": counted}
     return pages
 

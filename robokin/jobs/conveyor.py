@@ -20,11 +20,35 @@ import numpy as np
 from .._arrays import ArrayLike, Floats, Ints, Sealed, frozen
 from .._validate import floats, length, number, positive, short, whole
 from ..arms.geometry import ROUNDING
+from ..units import mm
+from .visit_collect import principal_postures, travel_time
 
 # With these limits, every call takes at most a few seconds:
 MOST = 1_000  # maximum number of objects on the belt
 PLACES = 500  # maximum number of places in a window
 ARMS = 100
+
+# The line of lab 14: an arm of the document, its bin and its window, in its own coordinates. The
+# numbers are our choice.
+LINKS = 500 * mm, 400 * mm
+SPEED = 2.0  # of each joint, rad/s
+BIN: Floats = frozen(np.array([150, -450, 250]) * mm)
+ALONG: Floats = frozen(np.linspace(-400, 400, 161) * mm)  # the window, along y
+WINDOW: Floats = frozen(np.stack([0 * ALONG + 600 * mm, ALONG, 0 * ALONG + 50 * mm], axis=-1))
+GAP = 150 * mm  # the mean gap between two objects
+
+
+def ways_from(bin_place: ArrayLike = BIN) -> Floats:
+    """The times of one way from a bin (3,) to each place of `WINDOW`, (161,) in s, for an arm with
+    `LINKS` whose joints reach `SPEED`. Its moves follow the quintic law, whose greatest speed is
+    15/8 of its mean. Raises ValueError if the arm does not reach the bin or the bin is on axis 1.
+    """
+    place = floats(bin_place, "bin_place", 3)
+    stand = principal_postures(*LINKS, place)
+    if place.ndim != 1 or not np.isfinite(stand).all():
+        wanted = "wanted a place (3,) in m that the arm reaches, not on its axis 1"
+        raise ValueError(f"bin_place: {wanted}, got {short(bin_place)}")
+    return 15 / 8 * travel_time(stand, principal_postures(*LINKS, WINDOW), [SPEED] * 3)
 
 
 def spaced(count: int, gap: float, spread: float = 0.0, *, seed: int = 8) -> Floats:

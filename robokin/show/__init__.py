@@ -2,6 +2,7 @@
 
 try:
     from .charts import bars, curves
+    from .conveyor import conveyor_player
     from .elbow_explorer import elbow_explorer
     from .ellipsoid import plot_velocity_ellipsoid
     from .explorer import Explorer
@@ -27,6 +28,7 @@ __all__ = [
     "Sketch",
     "animate",
     "bars",
+    "conveyor_player",
     "curves",
     "elbow_explorer",
     "figure",

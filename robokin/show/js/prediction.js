@@ -264,15 +264,17 @@ function told(data, at, right) {
 const coded = text => text.split("`").map((part, k) => (k % 2 ? element("code", {}, part) : part));
 
 /**
- * The line of code that reports the first guess of each prediction in the same lab as `own`.
+ * The line of code that reports the first guess of each prediction. Those of the same lab as `own`
+ * have their number, others their whole id.
  * @param {Made[]} made
  * @param {string} own
  */
 function line(made, own) {
   const lab = own.slice(0, own.indexOf(".") + 1);
   const said = made
-    .filter(([name], k) => name.startsWith(lab) && made.findIndex(each => each[0] === name) === k)
-    .map(([name, choice]) => `${name.slice(lab.length)} ${choice.split(":")[0]}`);
+    .filter(([name], k) => made.findIndex(each => each[0] === name) === k)
+    .map(([name, choice]) => [name.startsWith(lab) ? name.slice(lab.length) : name, choice])
+    .map(([name, choice]) => `${name} ${choice.split(":")[0]}`);
   return `report(who, guesses="${said.join(", ")}")`;
 }
 
