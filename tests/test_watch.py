@@ -82,6 +82,7 @@ VIEWS = {
     "two arms": (two_arms, 600),
     "one space": (in_one_space, 640),
     "motion explorer": (lambda _: motion_explorer(IRB140, START, VIA, GOAL), 560),
+    "corner": (lambda _: motion_explorer(IRB140, START, VIA, GOAL, close_up=True), 560),
 }
 
 

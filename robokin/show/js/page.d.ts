@@ -366,6 +366,7 @@ export interface MotionPage {
   panels: string[];
   samples: number;
   jumps: JumpRules;
+  close_up: boolean;
 }
 
 export interface LivePage {
