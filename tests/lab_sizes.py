@@ -61,7 +61,7 @@ def measure(path: Path) -> Size:
 
 
 def folded(cell) -> bool:
-    """Whether a code cell shows only its output."""
+    """Whether the source of a code cell is hidden."""
     return cell["metadata"].get("jupyter", {}).get("source_hidden", False)
 
 

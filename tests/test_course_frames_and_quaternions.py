@@ -48,7 +48,7 @@ def by_the_package(table, q, part):
 
 
 @pytest.mark.parametrize("answer", [solved, row_by_row, by_the_package])
-def test_correct_views_from_the_flange_pass(answer):
+def test_correct_poses_relative_to_the_flange_pass(answer):
     assert check("frames_and_quaternions.1", answer).holds
 
 
@@ -81,7 +81,7 @@ def joined(table, q, part):
         ("d and a exchanged", lambda t, q, p: invert(flange(t[:, [0, 2, 1, 3]], q)) @ p),
     ],
 )
-def test_mistakes_in_views_from_the_flange_are_named(name, answer):
+def test_mistakes_in_poses_relative_to_the_flange_are_named(name, answer):
     verdict = check("frames_and_quaternions.1", answer)
     assert not verdict.holds and verdict.mistake == name, verdict
 
@@ -108,7 +108,7 @@ def test_camera_can_look_at_the_part_for_every_student():
         who = f"student {k}"
         eye, part = places(who)
         z = (part - eye) / np.linalg.norm(part - eye)
-        assert z[2] < 0 and np.hypot(*z[:2]) > 0.2, "the camera looks level or straight down"
+        assert z[2] < 0 and np.hypot(*z[:2]) > 0.2, "the camera looks horizontally or straight down"
         yaw, rise = np.arctan2(z[1], z[0]), np.arcsin(z[2])
         turns = [columns(z), swung(yaw - np.pi / 2, rise - np.pi / 2)]
         answers = [Transform(turn, eye) for turn in turns]

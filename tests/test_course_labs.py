@@ -38,7 +38,7 @@ def code(lab):
 
 
 @every_lab
-def test_lab_asks_its_predictions_and_exercises_in_order(lab):
+def test_lab_contains_its_predictions_and_exercises_in_order(lab):
     asked = re.findall(r'^predict\("([\w.]+)"\)$', code(lab), re.M)
     assert asked == [p for p in PREDICTIONS if p.startswith(f"{lab}.")]
     checked = re.findall(r'^check\("([\w.]+)",', code(lab), re.M)
@@ -74,7 +74,7 @@ def test_every_objective_is_practised_and_named_in_the_lab(lab, monkeypatch):
 
 
 @every_lab
-def test_last_cell_of_your_turn_makes_the_report(lab):
+def test_last_cell_of_the_section_your_turn_makes_the_report(lab):
     """The cell uses the student's name, which an earlier cell or its own first line sets."""
     sources = ["".join(c["source"]) for c in cells(lab)]
     end = next(k for k, text in enumerate(sources) if text.startswith("## In short"))
@@ -155,7 +155,7 @@ def of_the_solution(name):
 
 @pytest.mark.parametrize("name", CATCHES)
 def test_no_test_passes_by_a_trick(name, monkeypatch):
-    """The tricks: counting calls, ignoring errors, returning nothing, never returning False."""
+    """The tricks are: counting calls, ignoring errors, returning nothing, never returning False."""
     right = of_the_solution(name)
     exercise = book.find(name, "exercises")
     many = len(exercise.rights) + len(exercise.wrongs) + 1
@@ -208,7 +208,7 @@ def test_prediction_has_one_correct_option_and_each_option_has_a_reason(name):
     asked = question + "".join(option.text for option in options)
     assert not re.search(r"\bnan\b|\bjust\b|\bsimply\b", asked)
     said = asked + "".join(option.reason + option.second for option in options)
-    assert not re.search(r"[{}$\\]", said), "an unfilled blank or a formula"
+    assert not re.search(r"[{}$\\]", said), "the text contains an unfilled blank or a formula"
     for k, option in enumerate(options):
         if typed:  # the values of all options are distinguishable
             assert chosen_option(prediction, options, right, float(option.text)) == k
@@ -255,6 +255,8 @@ def test_endless_answer_is_reported_and_the_kernel_survives():
 
 @pytest.mark.parametrize("name", ["answers", "", "..", None, 7, "irb140_motion.1"])
 def test_names_that_are_not_labs_are_refused(name):
-    """Names of course modules are refused, too, since a name comes from a handed-in file."""
+    """Names of course modules are also refused, since the name comes from a file that was handed
+    in.
+    """
     with pytest.raises(ValueError, match="lab: wanted one of start_here, "):
         book.lab(name)

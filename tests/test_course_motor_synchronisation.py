@@ -23,8 +23,8 @@ def short(d):
 
 
 def posture(alpha, guard=True, beta=lambda b: b):
-    """A program that computes alpha with the given function; without the guard, math.acos raises an
-    error.
+    """A program that computes alpha with the given function. Without the guard against rounding
+    errors, math.acos raises an error.
     """
 
     def program(point, before):
@@ -184,7 +184,7 @@ def looking(rows):
         (lambda k: k[:15], "it stops half way"),
     ],
 )
-def test_test_must_look_at_every_row(rows, name):
+def test_test_must_check_every_row(rows, name):
     verdict = check("motor_synchronisation.3", looking(rows))
     test = looking(rows)
     exercise = LAB.exercises["3"]
@@ -211,7 +211,7 @@ def test_messages_about_drives_show_different_numbers_and_not_the_answer():
     assert check("motor_synchronisation.2", text, who="Ada").mistake == "another kind or shape"
 
 
-def test_lost_steps_come_in_fours_with_another_integrator_too():
+def test_another_integrator_also_loses_steps_in_multiples_of_four():
     # p10 is computed with SciPy, without the windings' time constant, which does not change it
     def lost(frequency):
         theta, omega, since, ends = (

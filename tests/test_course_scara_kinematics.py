@@ -1,5 +1,6 @@
 """The exercises and predictions of lab 04: correct answers in every style pass, mistakes are named,
-every student's task can be solved, and every prediction's key is computed by another method.
+every student's task can be solved, and the answer to every prediction is computed by another
+method.
 """
 
 import re
@@ -45,7 +46,7 @@ def _by_cosines(q):
 
 
 @pytest.mark.parametrize("answer", [_by_direction, _by_rows, _by_complex_numbers, _by_cosines])
-def test_other_elbows_found_by_other_methods_pass(answer):
+def test_other_elbow_found_by_other_methods_passes(answer):
     verdict = check("scara_kinematics.1", answer)
     assert verdict.holds, verdict
 
@@ -70,7 +71,7 @@ def test_every_listed_mistake_is_named():
         (lambda q: q, None),
     ],
 )
-def test_mistakes_in_elbows_are_named(answer, name):
+def test_mistakes_in_the_other_elbow_are_named(answer, name):
     verdict = check("scara_kinematics.1", answer)
     assert not verdict.holds
     assert name is None or name in (verdict.mistake or ""), verdict
@@ -148,7 +149,7 @@ def test_task_matches_the_circle_in_the_lab():
 # --- Exercise 3: a test for limits ----------------------------------------------------------------
 
 
-def test_correct_programs_detect_every_value_past_a_limit():
+def test_correct_programs_detect_every_value_outside_the_limits():
     rng = np.random.default_rng(4)
     limits = SCARA.limits
     q = rng.uniform(*limits.T, (40, 4))
@@ -180,7 +181,7 @@ def test_programs_accepted_by_weak_limit_tests_are_named():
 
 
 def spoiled(past, tables, at=(7,), said=bool):
-    """A test that moves one value at a time past its limit by a given amount."""
+    """A test that moves one value at a time beyond its limit by a given amount."""
 
     def inside_is_right(inside):
         for limits in tables:
@@ -206,7 +207,7 @@ FOUR = [(-2, 2), (-3, 1), (-7, 7), (0, 0.2)]
 SIX = [(-0.5, 4), (-9, 9), (0.1, 2), (-3, 3), (-7, 1), (-2, 5)]
 
 
-def test_limit_test_must_try_small_excesses_and_six_joints():
+def test_limit_test_must_try_small_violations_and_six_joints():
     def close(answer):
         return bool(np.isclose(answer, True))
 
@@ -237,7 +238,7 @@ def test_whole_turns_pass_and_small_errors_are_called_nearly_right():
     assert place != is_at
 
 
-# --- Keys of the predictions, by other methods ----------------------------------------------------
+# --- Answers to the predictions, by other methods -------------------------------------------------
 
 
 def _right(name):
@@ -245,17 +246,17 @@ def _right(name):
     return options[right].text
 
 
-def test_p1_tool_turns_with_both_joints():
+def test_tool_rotates_with_both_joints_as_prediction_1_says():
     a, b = (SCARA.fk(q).rotation for q in ([0, 0, 0, 0], [30 * deg, 30 * deg, -60 * deg, 0]))
     assert np.allclose(a.as_matrix(), b.as_matrix()) and _right("p1") == "By −60°."
 
 
-def test_p3_agrees_with_inverse_kinematics():
+def test_answer_to_prediction_3_agrees_with_inverse_kinematics():
     q1 = SCARA.ik(ScaraPose([0.2, 0.2, 0.1]))[1, 0]
     assert _right("p3") == f"{q1 / deg:.1f}°."
 
 
-def test_p4_arcsine_misses_the_target():
+def test_arcsine_misses_the_target_as_prediction_4_says():
     l1, l2, d = 0.2, 0.25, 0.13
     q2 = np.arccos((d**2 - l1**2 - l2**2) / (2 * l1 * l2))
     q1 = -np.arcsin(l2 * np.sin(q2) / d)
@@ -263,18 +264,18 @@ def test_p4_arcsine_misses_the_target():
     assert abs(end - d) == pytest.approx(0.028, abs=5e-4) and "28 mm" in _right("p4")
 
 
-def test_p5_only_one_elbow_reaches_behind_the_arm():
+def test_only_one_elbow_reaches_behind_the_arm_as_prediction_5_says():
     rows = SCARA.ik(FACTS["BEHIND"])
     assert within(SCARA, rows).all(axis=-1).tolist() == [True, False]
     assert _right("p5").startswith("Elbow +1 alone")
 
 
-def test_p6_radius_of_the_hole_follows_from_the_limit():
+def test_radius_of_the_hole_in_prediction_6_follows_from_the_limit():
     x, y, _ = SCARA.fk([0, 120 * deg, 0, 0]).translation
     assert float(_right("p6")) == pytest.approx(np.hypot(x, y) / mm, abs=0.05)
 
 
-def test_p7_areas_agree_with_a_grid():
+def test_areas_in_prediction_7_agree_with_a_grid():
     across = np.arange(-458, 460, 4.0)
     x, y = np.meshgrid(across, across)
     grid = ScaraPose(np.stack([x, y, np.full_like(x, 100)], axis=-1) * mm)
@@ -287,7 +288,7 @@ def test_p7_areas_agree_with_a_grid():
     assert _right("p7").startswith("Joint 2")
 
 
-def test_p8_only_one_elbow_stays_inside_its_limits():
+def test_only_one_elbow_stays_inside_its_limits_as_prediction_8_says():
     omega = np.linspace(0, 2 * np.pi, 101)
     place = np.stack([0.2 + 0.07 * np.cos(omega), 0.07 * np.sin(omega), 0 * omega + 0.1], axis=-1)
     rows = SCARA.ik(ScaraPose(place, omega))
@@ -295,7 +296,7 @@ def test_p8_only_one_elbow_stays_inside_its_limits():
     assert np.allclose(ends, [315, 405], atol=0.05) and _right("p8") == "Elbow +1 alone."
 
 
-def test_p9_agrees_with_inverse_kinematics():
+def test_answer_to_prediction_9_agrees_with_inverse_kinematics():
     q2 = SCARA.ik(ScaraPose([0.44, 0, 0.1]))[0, 1]
     assert round(q2 / deg) == 24 and _right("p9") == "By about 24°."
     assert _right("p2").startswith("540° with lerp, 180°")

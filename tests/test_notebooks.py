@@ -1,6 +1,6 @@
 """Rules for every stored lab, checked in its file; nbval runs the cells and compares their outputs.
 
-Also tested: the script that executes the labs again makes no unnecessary changes.
+The tests also check that the script that executes the labs again makes no unnecessary changes.
 """
 
 import ast
@@ -68,13 +68,13 @@ def test_lab_numbers_have_no_gaps():
 
 
 def test_cells_were_executed_from_top_to_bottom(code):
-    # nbval compares nothing in a cell without an execution count, so a stripped notebook would
+    # nbval does not compare a cell without an execution count, so a notebook without counts would
     # pass.
     assert all(cell.source.strip() for cell in code), "a code cell is empty"
     assert [cell.execution_count for cell in code] == list(range(1, len(code) + 1))
 
 
-def test_every_notebook_has_compared_outputs(path, code):
+def test_every_notebook_has_outputs_that_nbval_compares(path, code):
     words_only = path.stem in ("glossary", "teaching")
     printed = sum(output.output_type == "stream" for cell in code for output in cell.outputs)
     assert (not code) if words_only else printed >= 2
@@ -144,7 +144,7 @@ def test_cells_fit_on_a_screen(code):
     assert not too_long
 
 
-def test_cells_are_plain_python_with_installed_imports(code):
+def test_cells_are_plain_python_and_import_only_installed_packages(code):
     for cell in code:
         for node in ast.walk(
             ast.parse(cell.source)
@@ -161,7 +161,8 @@ def test_cells_are_plain_python_with_installed_imports(code):
 
 
 def test_names_in_code_are_ascii(code):
-    # A Cyrillic letter that looks Latin makes a different name; an invisible character is a trap.
+    # A Cyrillic letter that looks Latin makes a different name, and invisible characters are hard
+    # to find.
     for cell in code:
         for token in tokenize.generate_tokens(io.StringIO(cell.source).readline):
             assert (
@@ -214,13 +215,13 @@ def test_labs_have_all_parts_in_the_same_order(lab):
 
 
 @every_lab
-def test_labs_take_about_an_hour(lab):
+def test_labs_do_not_exceed_the_size_limits(lab):
     size = lab_sizes.measure(lab)
     assert not lab_sizes.too_long(lab.stem, size), size
 
 
 @every_lab
-def test_labs_open_with_a_moving_view(lab):
+def test_labs_open_with_a_view(lab):
     """A lab opens with a title and a claim, a folded set-up cell, and a cell of at most three lines
     that shows a view.
     """
@@ -277,7 +278,7 @@ def test_executing_again_changes_nothing(tmp_path):
     assert path.read_bytes() == once
 
 
-def test_picture_compressed_by_another_zlib_keeps_its_bytes(tmp_path):
+def test_picture_compressed_by_another_zlib_version_keeps_its_bytes(tmp_path):
     path = _notebook(tmp_path / "a.ipynb", PICTURE)
     _execute(path)
     first = _png(path)

@@ -1,5 +1,5 @@
 """Statements of labs 01 to 06 that a reader once refuted: each test reads a statement from its lab
-and calculates its number in a second way.
+and recomputes its number by a second method.
 """
 
 import contextlib
@@ -146,7 +146,7 @@ def test_check_accepts_what_hint_2_approves_and_reports_jumps():
             assert "Each sample alone has a value inside" in says and "At both ends" not in says
 
 
-def test_a_wrap_spoils_two_central_differences_and_one_plain_difference():
+def test_wrapped_angle_spoils_two_central_differences_and_one_forward_difference():
     text = sources("02")["speed-look"]
     g, _ = run("02", "setup", "speed-code")
     q6, times = g["one_row"][:, 5], g["times"]
@@ -232,7 +232,7 @@ def test_distances_from_public_models_are_as_stated():
         away = np.linalg.norm((IRB140.fk(alone).as_matrix() - model(alone))[:3, 3]) / mm
         assert round(away) == number(r"their flange is (\d+) mm from ours", lab)
         assert round(away) == number(
-            r"without the negation it is (\d+) mm away at q2 = 30", comment
+            r"without the negation, it is (\d+) mm away when q2 = 30", comment
         )
     assert "exactly\n10 mm, at every posture" in lab and "exactly 10 mm away" in table
     assert "flange is 10 mm from ours at every posture" in comment
@@ -259,7 +259,7 @@ def _peaks(law, duration=1.0):
     return abs(speed).max(), abs(push[inside]).max()
 
 
-def test_the_laws_trade_speed_for_acceleration():
+def test_time_laws_trade_speed_for_acceleration():
     text = sources("03")["laws-question"]
     found = {a: _peaks(trapezoidal(1.0, a)) for a in (0.1, 0.25, 0.5)}
     found["quintic"] = _peaks(quintic(1.0))
@@ -289,7 +289,7 @@ def test_laws_cell_shows_that_higher_speed_means_lower_acceleration():
     assert speeds.argmin() == pushes.argmax() == 1 and speeds.argmax() == pushes.argmin() == 2
 
 
-def test_the_quintic_law_has_a_higher_acceleration_than_the_gentlest_trapezoid():
+def test_quintic_law_has_a_higher_peak_acceleration_than_the_best_trapezoidal_law():
     second = options("irb140_motion.p7")[1][0].second
     more = number(r"is (\d+) % higher", second)
     x = np.roots([360, -360, 60])  # where s''' is zero
@@ -311,7 +311,7 @@ def test_the_explorer_shows_the_values_of_the_table():
     for count in (
         8001,
         1001,
-    ):  # the explorer's values include those between samples, the table's do not
+    ):  # the explorer's values include those between samples, but the table's do not
         t = np.linspace(0, 20, count)
         q = follow(IRB140, IRB140.ik(blend(*path, linear(20.0)(t))), g["row"])
         speed, push = (abs(differentiate(q, t, n)).max(axis=0) for n in (1, 2))
@@ -340,7 +340,7 @@ STOPS = ["[140, 150]", "[140, 170]", "[100, 170]", "[70, 170]", "[178, 179]", "[
 
 
 @pytest.mark.parametrize("stops", [*STOPS, *tries("04", "zone-code", "stops")])
-def test_no_circle_larger_than_the_printed_one_fits(stops):
+def test_no_circle_larger_than_the_stated_one_fits(stops):
     values = eval(stops)
     hole = np.sqrt(200**2 + 250**2 + 2 * 200 * 250 * np.cos(values[1] * deg)) * mm
     g = {"np": np, "mm": mm, "deg": deg, "stops": values, "hole": hole, "fine": 2.0}
@@ -366,7 +366,7 @@ def test_omega_is_not_used_in_lab_04():
 def test_elbow_plus_one_bends_to_the_left_in_both_labs():
     q1, q2 = SCARA.ik(ScaraPose((0.25, 0.1, 0.1)))[SCARA.branch(+1), :2]
     first, second = (np.array([np.cos(x), np.sin(x)]) for x in (q1, q1 + q2))
-    # the second lever points to the left of the first
+    # seen along the first lever, the second one points to the left
     assert first[0] * second[1] - first[1] * second[0] > 0 and q2 > 0
     assert "+1 bends to the left, −1 to the right" in sources("04")["triangle-formula"]
     assert "the elbow that bends to the left: joint 2 positive" in sources("05")["setup"]
@@ -388,7 +388,7 @@ def test_no_angle_is_printed_as_minus_zero():
         assert not re.search(r"-0\.0°", said)
 
 
-def test_the_jump_depends_on_the_total_time():
+def test_speed_jump_is_inversely_proportional_to_the_total_time():
     assert "clock = s * total" in sources("05")["corner-figure"]
     jumps = []
     for value in ("20.0", *tries("05", "corner-jump", "total")):
@@ -437,7 +437,7 @@ def _passing():
 
 
 def _fastest(g, miss):
-    """The greatest speed of joint 4 in °/s, scanned in steps of 10 microseconds and calculated from
+    """The greatest speed of joint 4 in °/s, scanned in steps of 10 microseconds and computed from
     differences over 2 microseconds.
     """
     t = 2 + np.arange(-1000, 1001) * 1e-5
@@ -474,7 +474,7 @@ def test_table_figure_player_and_prediction_agree_on_the_speed_of_joint_4():
     assert titles == [f"{m} mm beside: joint 4 up to {exact[m]:.0f}°/s" for m in (2, 1)]
 
 
-def test_the_axes_are_shown_when_the_arm_appears():
+def test_joint_axes_are_shown_when_the_arm_appears():
     assert "Switch *joint axes* on" not in sources("06")["feel-centre-look"]
     script = Path(explorers.__file__).parent / "js" / "joint_explorer.js"
     assert "tick(words.axes, stage.changed, true)" in script.read_text(encoding="utf-8")
@@ -501,7 +501,7 @@ def test_rows_6_and_7_show_q2_as_stated():
     data = explorers.target_explorer(ITMO6R).data
     place, rotation = data["target"]["place"], data["target"]["rotation"]
     rows = ITMO6R.ik(Transform(Quaternion(np.array(rotation)), place))
-    assert np.allclose(rows[2], data["q"])  # the posture that is drawn after the cell has run
+    assert np.allclose(rows[2], data["q"])  # the posture that is shown when the cell has run
     for row in (6, 7):
         shown = nearest(ITMO6R, rows[[row]], np.array(data["q"]))[1] / deg
         assert round(shown, 1) == number(r"rows 6 and 7 show q2 = (\S+)°", text)

@@ -56,7 +56,7 @@ def apart(R, S):
 # --- Labs 00 to 03 --------------------------------------------------------------------------------
 
 
-def test_every_lab_marks_values_to_change_with_try():
+def test_every_lab_marks_values_to_change_with_a_try_comment():
     assert "**Look at** says where to look, `# try` what to change" in flat("00", "how")
     for lab in range(13):
         assert any("# try" in text for text in cells(f"{lab:02}").values()), lab
@@ -148,7 +148,7 @@ def test_shorter_intervals_do_not_show_smaller_changes():
     assert "What doubles at half the step belongs to the method" in flat("03", "short")
     told = "At the same blend the quintic gives the tool 1.5 times the parabola's greatest"
     assert told in written("irb140_motion")
-    # x is the parameter of the corner; control points are fractions of the path to via
+    # x is the parameter of the corner; the control points are fractions of the path to via
     x = np.linspace(0, 1, 1001)
     peaks = []
     for controls in ([0, 1, 0], [0, 0.4, 0.8, 0.8, 0.4, 0]):
@@ -259,7 +259,7 @@ def test_two_of_the_four_row_pairs_coincide_at_the_singular_pose():
     assert [each < 1e-6 for each in off] == [False, True, True, False]
 
 
-def test_a_mirror_is_orthogonal_and_phi_loses_digits_as_stated():
+def test_reflection_is_orthogonal_and_phi_loses_digits_as_stated():
     words = flat("06", "zyz-look")
     assert "is what every printed rotation $M$ has to pass" in words
     mirror = np.diag([1, 1, -1])
@@ -272,7 +272,7 @@ def test_a_mirror_is_orthogonal_and_phi_loses_digits_as_stated():
             psi = rng.uniform(-3, 3)
             M = about([0, 0, 1], phi) @ about([0, 1, 0], theta) @ about([0, 0, 1], psi)
             back = about([1, 0, 0], 0.7)
-            M = back.T @ (back @ M)  # rounded like a product of matrices
+            M = back.T @ (back @ M)  # with the rounding errors of a product of matrices
             off.append(abs(np.exp(1j * np.arctan2(M[1, 2], M[0, 2])) - np.exp(1j * phi)))
         worst[theta] = max(off)
     assert worst[1e-9] < 1e-6 and 1e-4 < worst[5e-14] < 0.1
@@ -300,7 +300,7 @@ def test_unwrapping_matters_only_for_joint_6():
             kinds.add(bool(some != kept))
 
 
-def test_rows_4_to_6_end_with_a_joint_wound_past_its_limit():
+def test_rows_4_to_6_end_with_a_joint_beyond_its_limit():
     words = flat("07", "choose-look")
     assert "pass a limit in between. Rows 4 to 6 end with a joint wound past it" in words
     assert "(speeds in steps of 0.01 s)" in words
@@ -387,11 +387,11 @@ def test_the_joints_in_which_two_rows_differ_depend_on_the_pose():
     assert options[right].text.startswith("Joints 2 to 6")
 
 
-def test_front_row_is_past_joint_1s_limit_for_far_poses_straight_behind():
+def test_front_row_exceeds_the_limit_of_joint_1_for_far_poses_straight_behind():
     _, options, _ = asked("puma560_branches.p4")
     (far,) = numbers(r"^(\d+) mm straight behind axis 1", options[0].second)
     for rho, allowed in ((300, True), (400, True), (far, False), (700, False)):
-        q1 = 180 - np.arcsin(150.05 / rho) / deg  # joint 1 of the front row, up to the sign
+        q1 = 180 - np.arcsin(150.05 / rho) / deg  # joint 1 of the front row, except for its sign
         assert (q1 <= 160) == allowed
 
 
@@ -431,7 +431,7 @@ def test_motion_starts_gently_and_the_slider_sets_the_mean_speed():
     assert 5 * np.sin(q2) + 4 * np.cos(q2) == pytest.approx(-2.33, abs=0.005)
 
 
-def test_other_elbow_is_past_its_limit_except_at_the_borders():
+def test_other_elbow_exceeds_its_limit_except_at_the_workspace_boundary():
     assert "off the borders, with the elbow flag −1 joint 3 is past its limit" in flat(
         "08", "rows-look"
     )
@@ -446,7 +446,7 @@ def test_other_elbow_is_past_its_limit_except_at_the_borders():
     assert ((low - 1e-9 <= border) & (border <= high + 1e-9)).all()
 
 
-def test_at_most_ten_reasons_of_one_kind_are_named():
+def test_at_most_ten_reasons_of_one_kind_are_listed():
     assert "names what is wrong, ten of one kind at most" in flat("08", "deeper-command")
     far = [[20 + k, 0, 0] for k in range(15)]
     with pytest.raises(TaskError) as told:
@@ -464,12 +464,13 @@ def test_ranges_of_alpha_and_gamma_are_as_stated():
     assert (np.diff(off) < 0).all() and off[-1] < 0.01
     (x,) = numbers(r"With K at \((\S+), 0\) m gamma is above 180° for every alpha", said)
     for alpha in np.linspace(np.arccos((5 - x * x) / 4), np.pi, 201):
-        away = np.sqrt(2 - 2 * np.cos(alpha))  # the side BK, then the angle at O of triangle OBK
+        # the side BK, and then the angle at O of the triangle OBK
+        away = np.sqrt(2 - 2 * np.cos(alpha))
         at_O = np.arccos(np.clip((1 + x * x - away**2) / (2 * abs(x)), -1, 1))
         assert at_O > 1e-3, "gamma is the direction of K plus this angle"
 
 
-def test_greed_is_compared_with_the_best_of_all_choices():
+def test_greedy_rule_is_compared_with_the_best_of_all_choices():
     question, options, right = asked("three_levers.p9")
     (rows,) = numbers(r"with (\d+) postures to choose from at each target", question)
     assert rows == LEVERS["ROWS"] and options[right].text.startswith("In few")
@@ -520,7 +521,7 @@ def test_areas_and_curves_are_as_stated():
     a, b, c = A[0], A[2000], A[-1]
     middle = np.linalg.solve(2 * np.array([b - a, c - a]), [b @ b - a @ a, c @ c - a @ a])
     far = np.hypot(*(A - middle).T)
-    assert np.ptp(far) > 1e-3, "not an arc of a circle"
+    assert np.ptp(far) > 1e-3, "the curve should not be an arc of a circle"
 
 
 def test_sampled_tasks_and_the_larger_circle_keep_the_distance_as_stated():
@@ -574,7 +575,7 @@ def test_long_turns_and_lost_steps_are_as_stated():
     assert "A path with corners may be shorter than a wide arc" in written("motor_synchronisation")
 
 
-def test_generated_c_has_only_doubles_and_rims_are_described_alike():
+def test_generated_c_has_only_doubles_and_both_texts_describe_the_rims_alike():
     assert "every variable in it is a double" in flat("12", "c-generate")
     assert "2*t3" in shown("12", "c-generate") and "int " not in shown("12", "c-generate")
     anything = "earer than a millimetre to a rim, and with the tip on the base,"

@@ -51,7 +51,7 @@ def test_lerp_between_rotations_is_not_a_rotation():
     assert "Between two different rotations lerp is not a rotation;" in words
     assert "divided by its length (nlerp) it is one, but does not turn at constant speed" in words
     third = np.array([np.cos(120 * deg), np.sin(120 * deg), 0, 0])
-    # this sum has length 1, so it is a rotation
+    # this sum of two unit quaternions has length 1, so it is a rotation
     assert np.linalg.norm([1, 0, 0, 0] + third) == pytest.approx(1)
     s = np.linspace(0, 1, 201)[:, None]
     rng = np.random.default_rng(1)
@@ -70,7 +70,7 @@ def test_lerp_between_rotations_is_not_a_rotation():
         assert all(np.linalg.det(mean) < 1 - 1e-6 for mean in means)
 
 
-def test_test_in_the_last_hint_for_slerp_catches_every_mistake():
+def test_test_in_the_last_hint_for_slerp_detects_every_mistake():
     exercise = book.find("frames_and_quaternions.3", "exercises")
     hint = one_line(exercise.hints[2])
     assert (
@@ -112,7 +112,7 @@ def test_test_in_the_last_hint_for_slerp_catches_every_mistake():
             missed = [name for name, lead in wrongs if is_right(lead, pairs + more)]
             assert not missed, (seed, missed)
             old = dict(wrongs)["nlerp of what is not near"]
-            without += is_right(old, pairs + more[:2])  # only the earlier cases
+            without += is_right(old, pairs + more[:2])  # only the cases of earlier hints
     assert without
 
 
@@ -159,7 +159,7 @@ def test_joint_1_is_fastest_in_the_middle_of_the_line():
     assert (speed > 0.9 * speed.max()).mean() > 0.1  # a broad peak, not "at one place"
 
 
-def test_trapezoid_brakes_at_full_strength_right_to_the_end():
+def test_trapezoidal_law_brakes_at_full_strength_until_the_end():
     reason = one_line(option("irb140_motion.p4", "trapezoidal").reason)
     assert "brakes at full strength to the very end, where the quintic fades out." in reason
     bell = one_line(option("irb140_motion.p4", "triangle").second)
@@ -174,7 +174,8 @@ def test_trapezoid_brakes_at_full_strength_right_to_the_end():
     assert (-brake(x[x > 0.86]) < steady).all()
     assert slope(0.5) == 1.875 and quad(slope, 0, 1)[0] == pytest.approx(1)
     narrow = np.polynomial.Polynomial([0, 0, 0, 0, 0, 1]) * np.polynomial.Polynomial([1, -1]) ** 5
-    assert narrow(0.5) / quad(narrow, 0, 1)[0] > 2  # this bell has a higher peak than a triangle
+    # this bell-shaped curve has a higher peak than a triangle
+    assert narrow(0.5) / quad(narrow, 0, 1)[0] > 2
 
 
 def test_quintic_corner_raises_the_tools_peak_acceleration_by_the_stated_factor():
@@ -233,7 +234,7 @@ def test_joint_4_can_have_two_values_inside_its_limits():
 
 
 def zone_area(a, m, l1=0.2, l2=0.25):
-    """The area of the floor reached with either elbow, in m², integrated over circles."""
+    """The floor area that the arm reaches with either elbow, in m², integrated over circles."""
 
     def served(r):
         q2 = np.arccos(np.clip((r * r - l1**2 - l2**2) / (2 * l1 * l2), -1, 1))
@@ -333,7 +334,9 @@ def test_only_a_rotation_about_the_tools_axis_leaves_the_wrist_centre_in_place()
 
 
 def by_hand(phi, theta, psi):
-    """Rot(z, phi) Rot(y, theta) Rot(z, psi), entry by entry: small entries keep their digits."""
+    """Rot(z, phi) Rot(y, theta) Rot(z, psi), computed entry by entry, so that small entries keep
+    their digits.
+    """
     (a, b, c), (x, y, z) = np.cos([phi, theta, psi]), np.sin([phi, theta, psi])
     return np.array(
         [
@@ -364,7 +367,7 @@ def lab_06():
 
 
 def singular_too(program, right):
-    """The program with its results corrected where sin theta = 0."""
+    """The program with its results corrected where sin(theta) = 0."""
 
     def found(h, wrist):
         with np.errstate(invalid="ignore"):
@@ -445,10 +448,10 @@ def test_regular_formulas_lose_digits_at_the_stated_angle():
             assert not (off(book_way, h) < 1e-10).any()
             assert (off(made["my_wrist"], h) < 1e-14).all()
     exact, rounded = kinds(1e-6)
-    assert (off(book_way, exact) < 1e-10).all()  # exact matrices lose no digits
+    assert (off(book_way, exact) < 1e-10).all()  # no digits are lost for exact matrices
     far = kinds(2e-6, 400)[1]
     found = np.array([book_way(h, +1) for h in far])
-    assert np.nanmax(off(book_way, far)) > 1e-10  # rounded ones lose digits
+    assert np.nanmax(off(book_way, far)) > 1e-10  # digits are lost for rounded matrices
     assert np.isfinite(found).all()
 
 

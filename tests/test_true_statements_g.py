@@ -1,5 +1,5 @@
 """Statements of labs 08 and 09 that a fourth reader refuted or doubted, recomputed with inverses,
-times, queues and races written here from the definitions in the labs.
+times, queues and races that are written in this file from the definitions in the labs.
 """
 
 import cmath
@@ -61,7 +61,7 @@ def needs(q, other, speed):
     return max(abs(a - b) for a, b in zip(q, other, strict=True)) / speed
 
 
-def test_inverse_in_this_file_is_correct():
+def test_inverse_written_in_this_file_is_correct():
     for q in np.random.default_rng(1).uniform([-3, 0, -1.5], [3, 1.5, 0.9], (200, 3)):
         place = place_of(q)
         assert spbu_arm(5, 4).fk(q).translation == pytest.approx(place)
@@ -70,7 +70,7 @@ def test_inverse_in_this_file_is_correct():
 
 
 def bin_on_the_axis(order, places, home, speed=0.2):
-    """The time to bring the objects to a bin on axis 1, where joint 1 keeps its value."""
+    """The time to bring the objects to a bin on axis 1, where joint 1 does not have to move."""
     stand, spent = joints_of(home), 0.0
     for k in order:
         there = joints_of(places[k])
@@ -106,7 +106,7 @@ def test_visiting_in_order_of_angle_turns_joint_1_least():
 
 
 def round_trip(legs, order, T):
-    """How many objects the arm brings home by T; index 0 of `legs` is home."""
+    """How many objects the arm brings home by the time T; index 0 of `legs` is home."""
     spent, here, count = 0.0, 0, 0
     for stop in order:
         spent, here = spent + legs[here][stop], stop
@@ -117,7 +117,7 @@ def round_trip(legs, order, T):
 
 
 def nearest(legs, cost):
-    """The order in which every next stop is the cheapest one."""
+    """The order in which each stop is the cheapest one that remains."""
     order, here = [], 0
     while rest := set(range(1, len(legs))) - set(order):
         here = min(rest, key=lambda stop: cost(here, stop))
@@ -146,7 +146,7 @@ def test_another_round_trip_beats_nearest_first_as_stated():
     orders = [*permutations(range(1, 5))]
     for rule in rules:
         assert round_trip(legs, nearest(legs, rule), T) == few == 1
-        # within the opening's T, neither rule brings any object home
+        # within the time T of the opening, neither rule brings any object home
         assert round_trip(legs, nearest(legs, rule), 7.5) == 0
     assert max(round_trip(legs, order, T) for order in orders) == many == 3
     assert max(round_trip(legs, order, 7.5) for order in orders) == 0
@@ -229,8 +229,8 @@ WAYS = np.array(belt_ways())
 
 
 def one_arm(arrivals, v):
-    """For an arm that always takes the object with which it is back soonest: the times when it is
-    back, and the arrivals that it misses.
+    """For an arm that always picks the object that lets it return soonest: the times of its
+    returns, and the arrivals that it misses.
     """
     left, free, backs = [*arrivals], 0.0, []
     delays = np.linspace(0, 0.8, 161) / v
@@ -326,7 +326,9 @@ def test_changing_only_alpha_to_plus_90_mirrors_the_arm_in_the_floor():
 
 
 def gripper(q, bend=-1, lengths=(1, 1, 1)):
-    """K as a complex number; the chain turns clockwise if bend is -1, counterclockwise if +1."""
+    """K as a complex number; the chain turns clockwise if `bend` is -1 and counterclockwise if it
+    is +1.
+    """
     place, way = 0j, cmath.exp(1j * q[0])
     for length, inner in zip(lengths, [*q[1:], math.pi], strict=True):
         place += length * way
@@ -347,7 +349,9 @@ def family(K, alpha, bend=-1):
 
 
 def least_from(K, before):
-    """The least sum of turns S and its posture, by a fine sweep and a search near its minimum."""
+    """The least sum of turns S and its posture, found by a fine sweep and a search near its
+    minimum.
+    """
     low = math.acos((5 - abs(K) ** 2) / 4)
 
     def turned(alpha):
@@ -365,7 +369,7 @@ def least_from(K, before):
     return best[0], family(K, best[1])
 
 
-def test_family_in_this_file_is_correct():
+def test_family_of_postures_written_in_this_file_is_correct():
     rng = np.random.default_rng(2)
     for _ in range(200):
         K = rng.uniform(1.1, 2.9) * cmath.exp(1j * rng.uniform(0, 2))
@@ -374,7 +378,7 @@ def test_family_in_this_file_is_correct():
             assert gripper(family(K, alpha, bend), bend) == pytest.approx(K)
 
 
-def test_random_choice_turns_less_as_often_as_stated_but_never_from_the_same_posture():
+def test_random_choice_turns_joints_less_as_often_as_stated_but_never_from_the_same_posture():
     found = option("three_levers.p10", "hardly more")
     reason = one_line(found.reason)
     assert (
@@ -400,11 +404,13 @@ def test_random_choice_turns_less_as_often_as_stated_but_never_from_the_same_pos
         least, saver = least_from(K, saver)
         turns.append((thrown, least, could))
     thrown, least, could = np.array(turns).T / deg
-    # a throw never turns less than the least movement from the same posture, and nearly always more
+    # a random choice never turns the joints less than the least movement from the same posture, and
+    # nearly always more
     assert (thrown > could - 1e-4).all()
     assert (thrown > could + 0.1).sum() > 95
     assert abs(thrown - least).min() > 0.01 and (thrown < least).sum() == fewer == 14
-    # a throw can turn less than the other arm in a single task, but not in total
+    # a random choice can turn the joints less than the other arm does in a single task, but not in
+    # total
     assert (least - thrown).max() == pytest.approx(65.9, abs=0.05)
     assert thrown.sum() > 1.4 * least.sum()
 
@@ -414,7 +420,7 @@ def width(KO):
     return 180 - math.degrees(math.acos((5 - KO**2) / 4))
 
 
-def test_the_narrower_range_follows_from_inverse_proportion():
+def test_width_of_the_narrower_range_follows_from_inverse_proportion():
     found = option("three_levers.p2", "in proportion")
     (said,) = numbers(r"^Narrower, (\S+)°: in inverse proportion to the distance\.$", found.text)
     assert said == round(width(1.5) * 1.5 / 2.8, 1)
@@ -426,7 +432,8 @@ def test_the_narrower_range_follows_from_inverse_proportion():
     (far,) = numbers(r"In inverse proportion the arm could still choose at (\S+) m, where", second)
     assert width(1.5) * 1.5 / far > 1 and far > 3
     falls = [(width(a) - width(b)) / (b - a) for a, b in pairwise([2.0, 2.5, 2.9, 2.99, 3.0])]
-    assert sorted(falls) == falls and falls[-1] > 10 * falls[0]  # a steeper and steeper fall
+    # the fall becomes steeper and steeper
+    assert sorted(falls) == falls and falls[-1] > 10 * falls[0]
 
 
 def test_recipe_for_the_other_bend_reaches_targets_behind_the_base():
@@ -437,7 +444,7 @@ def test_recipe_for_the_other_bend_reaches_targets_behind_the_base():
     )
     made = quietly("09", "imports", "opening", "chain-code", "range-code", "angles-code")
     mirrored = 2 * np.array([np.cos(150 * deg), -np.sin(150 * deg)])
-    assert np.isnan(ARM.alpha_range(mirrored)).all()  # the package's solvers find nothing
+    assert np.isnan(ARM.alpha_range(mirrored)).all()  # the package's solvers find no posture
     assert np.isnan(ARM.least(mirrored, np.array([60, 120, 120]) * deg)[1])
     shares = {}
     for phi in np.arange(92.5, 180, 5):

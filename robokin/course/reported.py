@@ -1,10 +1,10 @@
-"""Read the data of a report from its page and validate them: anybody can edit a report, and it
-contains the results of a student's code.
+"""Read the data of a report from its page and validate them, since anybody can edit a report, and
+it contains the results of a student's code.
 
 Validated data contain only ids of the lab's own exercises and predictions; an exercise's task and
 objective come from robokin. Every text has a limited length, and invisible characters are written
-as escapes, so that nothing in it can hide, break a line of a table or change its direction. It is
-still a stranger's text, and a page must escape it.
+as escapes, so that no text can contain hidden characters, break a line of a table or change the
+direction of writing. The texts are still untrusted, and a page must escape them.
 """
 
 import json
@@ -27,8 +27,8 @@ JOINERS = "\u200c\u200d"  # invisible characters that names in Persian or Hindi 
 
 
 def report_data(text: str) -> dict[str, Any] | None:
-    """Return the data in the page of a report, or None if it is not a report. ValueError: it is a
-    broken report.
+    """Return the data in the page of a report, or None if it is not a report. Raises ValueError if
+    it is a broken report.
     """
     start = text.find(DATA)
     if start < 0:
@@ -46,8 +46,8 @@ def report_data(text: str) -> dict[str, Any] | None:
 
 
 def validated(data: Any) -> dict[str, Any]:
-    """Return a report's data in the form of version 2; version 1 lacks the times of guesses and
-    later guesses. ValueError: they are not the data of a report.
+    """Return a report's data in the form of version 2; version 1 lacks later guesses and the times
+    of guesses. Raises ValueError if they are not the data of a report.
     """
     if not isinstance(data, dict) or data.get("report") not in (1, 2):
         raise ValueError("its data are not in a format that this version of robokin knows")

@@ -25,7 +25,7 @@ from .twin import KINDS, arm_data
 Pose: TypeAlias = Transform | ScaraPose
 
 NEAREST = "nearest"
-TURNS = "Roll, pitch and yaw turn about the base's x, then y, then z axis."
+TURNS = "Roll, pitch and yaw rotate about the base's x, then y, then z axis."
 TAKE = "Take hold of a ring and drag it, or move the sliders. "
 WORDS: Mapping[str, str] = {
     "target": "target",
@@ -45,7 +45,7 @@ WORDS: Mapping[str, str] = {
     "noneUsable": "No branch is usable. {why}",
     "ellipsoid": "ellipsoid",
     "off": "off",
-    "free": "tool velocities, free to turn",
+    "free": "tool velocities, tool free to turn",
     "held": "tool velocities, orientation held",
     "speeds": "Semi-axes: {values} {unit}/s.",
     "axes": "joint axes",
@@ -58,14 +58,14 @@ WORDS: Mapping[str, str] = {
     "takeTurn": "target about its {axis} axis",
     "takeAngle": "angle of the tool",
     "takeStation": "{name}, in the plane of the screen",
-    "takeVia": "via along the base's {axis} axis",
+    "takeVia": "via point along the base's {axis} axis",
     "takeBlend": "blend",
     "blendIs": "{blend}, {distance} from via",
     "rings": "rings {first} to {last}",
     "ringsMove": "rings to move",
     "ringsTurn": "rings to turn",
     "ringsFree": "start, via, goal",
-    "ringsVia": "via along x, y, z",
+    "ringsVia": "via point along x, y, z",
     "law": "time law",
     "corner": "corner",
     "costs": "The sum S of the angle changes, against the free angle alpha.",
@@ -88,34 +88,34 @@ WORDS: Mapping[str, str] = {
     "toGoal": "to goal",
     "missingSamples": "No solution in {none} of {all} samples.",
     "pastSamples": "q{joint} is past its limit in {past} of {all} samples.",
-    "fastSamples": "q{joint} is past its speed limit in {past} of {all} samples.",
+    "fastSamples": "q{joint} exceeds its speed limit in {past} of {all} samples.",
     "jump": "The speed jumps at {time} s: there is no acceleration there.",
 }
 
 
 class Explorer(Output):
-    """An arm on a page, which the reader can move. It displays itself in a notebook; `save` writes
+    """A view in which the reader can move an arm. It displays itself in a notebook; `save` writes
     it as a page.
 
-    data    the data of the page, ready for JSON: a `page.PageExplorer`
+    data    the data of the page, which JSON can represent: a `page.PageExplorer`
     still   the figure that is shown until the script runs, in print, and in an untrusted
             notebook
     """
 
     @property
     def call(self) -> str:  # type: ignore[override]
-        """The module and the function that show the explorer."""
+        """The module, and the function in it, that shows the explorer."""
         return f"{self.data['kind']}_explorer.explore"
 
 
 def inverted(arm: ClosedFormArm) -> None:
-    """Check that the scripts implement the inverse of an arm. TypeError: it has none, or one that
-    they do not implement.
+    """Check that the scripts implement the inverse of an arm. Raises TypeError if the arm has no
+    inverse, or if the scripts do not implement it.
     """
     kind = type(instance(arm, ClosedFormArm, "arm").geometry)
     if kind not in KINDS:
         raise TypeError(
-            f"arm: {kind.__name__} has no inverse for pages; see KINDS in robokin/show/twin.py"
+            f"arm: {kind.__name__} has no inverse for pages: see KINDS in robokin/show/twin.py"
         )
 
 
@@ -123,7 +123,7 @@ def inverted(arm: ClosedFormArm) -> None:
 
 
 def as_transform(pose: Pose) -> Transform:
-    """The flange pose of a target."""
+    """Return the flange pose of a target."""
     return pose.as_transform() if isinstance(pose, ScaraPose) else pose
 
 
@@ -149,9 +149,9 @@ def arm_page(
     meant: str,
     code: str,
 ) -> ArmPage:
-    """The page data that all explorers of an arm share, made from the postures (k, n) with which
-    the page opens and the targets in its scene. The postures `near` (k, n) have room in the picture
-    as well; by default those in which one joint has moved a little.
+    """Return the page data that all explorers of an arm share. The page opens with the postures
+    `opening` (k, n), and its scene shows the targets `posed`. The picture also has room for the
+    postures `near` (k, n); by default, these are postures in which one joint has moved a little.
     """
     name, size = length_unit(extent(arm))
     return {
@@ -172,8 +172,8 @@ def arm_page(
 def _scene(
     arm: Arm, posed: Mapping[str, Transform], opening: Floats, near: Floats | None
 ) -> PageScene:
-    """A scene that shows the opening postures (k, n) and those near them, above the floor. The page
-    zooms out when anything leaves the picture.
+    """Return a scene that shows the opening postures (k, n) and the postures near them, above the
+    floor. The page zooms out when anything leaves the picture.
     """
     flat = common_plane([arm]) is not None
     turn = np.where(arm.prismatic, 0.03 * extent(arm), (40 if flat else 20) * deg)
@@ -192,7 +192,9 @@ def _scene(
 def control(
     name: str, unit: str, low: float, high: float, step: float, decimals: int | None = None
 ) -> Control:
-    """The page data of a slider. By default its values have one decimal, or three in metres."""
+    """Return the page data of a slider. By default, its values have one decimal, or three in
+    metres.
+    """
     default = 3 if unit == "m" else 1
     ends = [float(np.round(x, 9)) for x in (low, high)]
     return {
@@ -206,7 +208,7 @@ def control(
 
 
 def units(arm: Arm) -> list[PageUnit]:
-    """The name, size and code of each joint's unit."""
+    """Return the name, size and code of each joint's unit."""
     name, size = length_unit(extent(arm))
     shift: PageUnit = {"name": name, "size": size, "code": "mm" if size == mm else "1"}
     turn: PageUnit = {"name": "°", "size": deg, "code": "deg"}
@@ -214,7 +216,7 @@ def units(arm: Arm) -> list[PageUnit]:
 
 
 def sizes(arm: Arm) -> Floats:
-    """The sizes (n,) of the joints' units."""
+    """Return the sizes (n,) of the joints' units."""
     return np.array([unit["size"] for unit in units(arm)])
 
 
@@ -227,12 +229,12 @@ def number(value: float, decimals: int) -> str:
 
 
 def code_name(arm: Arm) -> str:
-    """The name of this arm in the package, or `arm` if it has none."""
+    """Return the name of this arm in the package, or `arm` if it has none."""
     return next((name for name in robokin.__all__ if getattr(robokin, name) is arm), "arm")
 
 
 def imports(arm: Arm, *more: str) -> str:
-    """The Python lines that import an arm and `more` names."""
+    """Return the Python lines that import an arm and the names in `more`."""
     names = {"deg", "mm", *more, *({code_name(arm)} - {"arm"})}
     own = "" if code_name(arm) != "arm" else f"# arm: {' '.join(arm.name.split())}\n"
     return (

@@ -1,9 +1,9 @@
-"""Explorers: an arm on a page, which the reader can move without a kernel.
+"""Explorers: views in which the reader can move an arm without a kernel.
 
-In `joint_explorer` the reader turns joints; in `target_explorer` the reader moves a target and sees
-every branch of `ik` and which of them are usable. The page computes with the scripts in `js/`;
-`twin.py` prepares the data of the arm. The reasons why a row of `ik` cannot be used are in
-`arms/explanations.py`, all other text is in `explorer.WORDS`.
+In `joint_explorer`, the reader turns joints. In `target_explorer`, the reader moves a target and
+sees every branch of `ik`, and which branches are usable. The page computes with the scripts in
+`js/`; `twin.py` prepares the data of the arm. The reasons why a row of `ik` is not usable are in
+`arms/explanations.py`; all other text is in `explorer.WORDS`.
 """
 
 import numpy as np
@@ -46,26 +46,30 @@ from .page import FactRow, JointPage, TargetPage
 __all__ = ["Explorer", "joint_explorer", "target_explorer"]
 
 MEANT = (
-    "Distance from singularity: the smallest singular value of the Jacobian, lengths divided by "
-    "the arm's reach so that it has no unit. It says how little the tool moves in its worst "
-    "direction; 0 is a singularity."
+    "Distance from singularity: the smallest singular value of the Jacobian, with lengths divided "
+    "by the arm's reach, so that it has no unit. It says how slowly the tool moves in its worst "
+    "direction; it is 0 at a singularity."
 )
 
 
 def joint_explorer(
     arm: Arm, q: ArrayLike | None = None, *, singular: bool = False, wrist: bool = False
 ) -> "Explorer":
-    """Show an arm with a ring and a slider for each joint, all its frames, and the numbers of the
-    flange. It opens at the posture q (n,), by default at one that is easy to see. With `singular`
-    it also shows the distance from a singularity, says which singularities the posture has, and can
-    show the ellipsoid of tool velocities. With `wrist` it marks the wrist centre, where the axes of
-    the last three joints meet, in a larger picture of a translucent arm. It displays itself at the
-    end of a cell. TypeError: not an Arm. ValueError: a q that is not a posture; `wrist`, and the
-    last three axes do not meet in one point.
+    """Show an arm with a ring and a slider for each joint, all its frames, and the pose of the
+    flange. The explorer displays itself at the end of a cell. It opens at the posture q (n,), by
+    default at a posture that is easy to see.
+
+    With `singular`, it also shows the distance from a singularity and says which singularities the
+    posture has, and the reader can display the ellipsoid of tool velocities. With `wrist`, it shows
+    a larger picture of a translucent arm and marks the wrist centre, where the axes of the last
+    three joints meet.
 
     Roll, pitch and yaw are rotations about the fixed x, y and z axes of the base, in this order: R
-    = Rz Ry Rx. (At a pitch of +-90 degrees roll and yaw rotate about the same line, and roll is set
-    to zero.)
+    = Rz Ry Rx. (At a pitch of +-90 degrees, roll and yaw rotate about the same line, and roll is
+    set to zero.)
+
+    Raises TypeError if `arm` is not an Arm. Raises ValueError if q is not a posture, or if `wrist`
+    is True and the last three axes do not meet in one point.
     """
     instance(arm, Arm, "arm")
     start = _open(arm) if q is None else floats(q, "q", len(arm.limits))
@@ -122,15 +126,16 @@ def joint_explorer(
 
 
 def target_explorer(arm: ClosedFormArm | ThreeLeverArm) -> "Explorer":
-    """Show a target with rings and arrows to drag it, and every branch of `ik`, each with a row in
-    a table and the chosen one drawn boldly. A click on a row chooses the branch. The menu can do
-    that too, or select the usable branch nearest to the last posture.
+    """Show a target that the reader can drag with rings and arrows, and every branch of `ik`. Each
+    branch has a row in a table, and the chosen branch is drawn boldly. The reader chooses a branch
+    by clicking its row or from a menu. The menu can also select the usable branch nearest to the
+    last posture.
 
-    The target of a six-axis arm is a position with roll, pitch and yaw as in `joint_explorer`; of a
-    SCARA, a position and the tool's angle; of a positioning arm, a position. For three levers it
-    shows the position, the free angle alpha, the curve of the cost of getting there from the
-    previous posture, and, for unequal levers, their lengths. TypeError: an arm with neither an
-    inverse nor a family of postures.
+    The target of a six-axis arm is a position with roll, pitch and yaw, as in `joint_explorer`. The
+    target of a SCARA is a position and the tool's angle, and that of a positioning arm is a
+    position. For three levers, the explorer shows the position, the free angle alpha, the curve of
+    the cost of moving there from the previous posture, and, if the levers are unequal, their
+    lengths. Raises TypeError if the arm has neither an inverse nor a family of postures.
     """
     if isinstance(arm, ThreeLeverArm):
         return levers_explorer(arm)
@@ -182,7 +187,7 @@ def target_explorer(arm: ClosedFormArm | ThreeLeverArm) -> "Explorer":
             "verdict",
             *(f"q{i + 1} {unit['name']}" for i, unit in enumerate(units(arm))),
             "distance from singularity",
-            # only angles count: a stroke is the same in every row
+            # only angles are counted, since a stroke is the same in every row
             "travel, °" if whole else f"travel of {', '.join(f'q{j + 1}' for j in turning)}, °",
         ],
         "turning": turning.tolist(),
@@ -198,11 +203,11 @@ def target_explorer(arm: ClosedFormArm | ThreeLeverArm) -> "Explorer":
 
 
 def _showcase(arm: ClosedFormArm) -> tuple[Floats, Floats, Floats]:
-    """A target with as many usable branches as possible, far from singularities, in front of the
-    arm and above the floor. (If there is none, the target at the middle of all limits.)
+    """Return a target with as many usable branches as possible, far from singularities, in front of
+    the arm and above the floor. (If there is none, return the target at the middle of all limits.)
 
-    Returns the position (3,) and the rotations in radians, in round numbers, and a posture (n,)
-    that reaches it.
+    The result is the position (3,) and the rotations in radians, in round numbers, and a posture
+    (n,) that reaches the target.
     """
     middle, size = arm.limits.mean(axis=-1), extent(arm)
     best, most = (arm.fk(middle).translation, _turned(arm, arm.fk(middle)), middle), -1.0
@@ -217,7 +222,7 @@ def _showcase(arm: ClosedFormArm) -> tuple[Floats, Floats, Floats]:
         usable = np.all(within(arm, rows), axis=-1)
         if usable.any():
             near = np.nanmin(distance_from_singularity(arm, rows))
-            # rank singular targets last: two branches coincide there and vanish a step farther
+            # Rank singular targets last: two branches coincide there and vanish a step farther.
             score = (usable.sum() if near > 0.03 else 0) + float(np.round(near, 6))
             if score > most:
                 best = place, turns, nearest(arm, rows[usable], np.zeros(len(arm.links)))
@@ -226,7 +231,9 @@ def _showcase(arm: ClosedFormArm) -> tuple[Floats, Floats, Floats]:
 
 
 def _open(arm: Arm) -> Floats:
-    """A posture in round numbers, far from singularities, in front of the arm, above the floor."""
+    """Return a posture in round numbers that is far from singularities, in front of the arm and
+    above the floor.
+    """
     unit, size = sizes(arm), extent(arm)
     q = np.round(spread(arm, 160, 75 * deg) / unit / 5) * 5 * unit
     q = q[((q >= arm.limits[:, 0]) & (q <= arm.limits[:, 1])).all(axis=-1)]
@@ -242,8 +249,8 @@ def _open(arm: Arm) -> Floats:
 
 
 def _wrist_centre(arm: Arm) -> Floats:
-    """The point (3,) in flange coordinates where the last three axes meet. ValueError: they do
-    not.
+    """Return the point (3,) in flange coordinates where the last three axes meet. Raises ValueError
+    if they do not meet.
     """
     q = np.zeros(len(arm.links))
     frames, last = arm.frames(q), range(len(q))[-3:]
@@ -259,7 +266,9 @@ def _wrist_centre(arm: Arm) -> Floats:
 
 
 def _wrist_turns(arm: Arm, q: Floats) -> Floats:
-    """Postures (k, n) in which one of the last three joints of q (n,) turns between its limits."""
+    """Return postures (k, n) in which one of the last three joints of q (n,) moves between its
+    limits.
+    """
     turned = np.tile(q, (3, 25, 1))
     for row, j in zip(turned, range(len(q))[-3:], strict=True):
         low, high = arm.limits[j].clip(-180 * deg, 180 * deg)
@@ -275,7 +284,7 @@ def _turns(arm: Arm) -> tuple[str, ...]:
 
 
 def _asked(arm: Arm, place: Floats, turns: Floats) -> Pose:
-    """The target with this position (3,) and these rotations in radians."""
+    """Return the target with this position (3,) and these rotations in radians."""
     if arm.target is ScaraPose:
         return ScaraPose(place, turns[0])
     if arm.target is Transform:

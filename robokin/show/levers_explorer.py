@@ -38,7 +38,7 @@ def levers_explorer(arm: ThreeLeverArm) -> Explorer:
         summary,
         controls,
         before[None],
-        meant=TAKE + "The broken posture is where S is counted from.",
+        meant=TAKE + "S is counted from the dashed posture.",
         code=f"{imports(arm, *['three_lever'] * unequal)}\n"
         f"{'arm = three_lever(({levers}))' if unequal else '# arm = three_lever(...)'}\n"
         f"q = arm.family(({{x}}{unit}, {{y}}{unit}), {{alpha}} * deg)",

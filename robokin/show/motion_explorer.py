@@ -62,19 +62,20 @@ def motion_explorer(
     duration: float = 5.0,
     close_up: bool = False,
 ) -> "Explorer":
-    """Show a blended motion past `via`: start, via and goal with rings and arrows to drag, sliders
-    for the via point, the blend and the duration, menus for the time law, the corner and the
-    branch. The arm, the curves and the numbers follow; the motion can be played, and a click on a
-    curve sets the clock. The explorer opens with the time law `law` and a `duration` in seconds, on
-    branch `row`, by default the first of those with the most usable samples.
+    """Show a blended motion past the via point `via`. The reader can drag start, via point and goal
+    with rings and arrows, move the via point and set the blend and the duration with sliders, and
+    choose the time law, the corner and the branch from menus. The arm, the curves and the numbers
+    follow. The motion can be played, and a click on a curve sets the clock. The explorer opens with
+    the time law `law`, a `duration` in seconds, and the branch `row`, by default the first of those
+    with the most usable samples.
 
-    With `close_up` the stations stay where they are: the picture shows the corner at via, in the
-    plane of its two lines, with a ring that changes the blend. Beside it stand the accelerations
-    and the name of the joint that works hardest.
+    With `close_up` start, via point and goal stay where they are. The picture shows the corner at
+    the via point, in the plane of its two lines, with a ring that changes the blend. Beside it are
+    the accelerations and the name of the joint that works hardest.
 
-    The poses are single targets of `arm.ik` (Transform, or ScaraPose for a SCARA). ValueError: a
-    batch of poses, an unknown row, or `close_up` without a corner at via. TypeError: poses of
-    another type, or an arm without `ik`.
+    The poses are single targets of `arm.ik` (Transform, or ScaraPose for a SCARA). Raises
+    ValueError if they are batches of poses, if there is no such row, or if there is no corner to
+    show close up. Raises TypeError if the poses are of another type, or if the arm has no `ik`.
     """
     inverted(arm)
     stations = {"start": start, "via": via, "goal": goal}
@@ -147,7 +148,9 @@ def motion_explorer(
 
 
 def _posed(arm: ClosedFormArm, stations: Mapping[str, Pose]) -> dict[str, Transform]:
-    """The flange poses of stations. TypeError, ValueError: not a single target of this arm."""
+    """Return the flange poses of start, via point and goal. Raises TypeError if one of them is not
+    a target of this arm, and ValueError if it is a batch.
+    """
     kind = ScaraPose if arm.target is ScaraPose else Transform
     for name, pose in stations.items():
         if instance(pose, kind, name).shape:
@@ -158,7 +161,7 @@ def _posed(arm: ClosedFormArm, stations: Mapping[str, Pose]) -> dict[str, Transf
 def _greatest_speed(
     arm: ClosedFormArm, pose: Callable[[Floats], Pose], t: Floats, q: Floats
 ) -> str:
-    """The greatest speed of a motion in words."""
+    """Describe the greatest speed of a motion."""
     speed, j, of = _fastest(arm, pose, t, q)
     return f"greatest speed{of} {number(speed, 1)} {units(arm)[j]['name']}/s (joint {j + 1})"
 
@@ -169,7 +172,9 @@ def _passes(
     pose: Callable[[Floats], Pose],
     duration: float,
 ) -> str:
-    """The distance of a path from via in words. ValueError: there is no corner at via."""
+    """Describe how far from the via point a path passes. Raises ValueError if the path has no
+    corner there.
+    """
     start, via, goal = (station.translation for station in stations.values())
     legs = np.stack([start - via, goal - via])
     size = np.linalg.norm(legs, axis=-1, keepdims=True)
@@ -187,7 +192,7 @@ def _passes(
 
 
 def _seconds(duration: float) -> float:
-    """Return a valid duration."""
+    """Return the duration as a float. Raises ValueError if it is too short or too long."""
     wanted = f"from {SHORTEST:g} to {LONGEST:g} s"
     seconds = positive(duration, "duration", wanted)
     if not SHORTEST <= seconds <= LONGEST:
@@ -196,7 +201,7 @@ def _seconds(duration: float) -> float:
 
 
 def _controls(arm: ClosedFormArm) -> list[Control]:
-    """The sliders: the via point, the blend and the duration."""
+    """Return the sliders of the via point, the blend and the duration."""
     unit, size = length_unit(extent(arm))
     most = float(np.ceil(1.05 * extent(arm) / (50 * mm)) * 50 * mm / size)
     step = 1 if size == mm else 0.001
@@ -210,9 +215,9 @@ def _controls(arm: ClosedFormArm) -> list[Control]:
 def _fastest(
     arm: ClosedFormArm, pose: Callable[[Floats], Pose], t: Floats, q: Floats
 ) -> tuple[float, int, str]:
-    """The greatest speed of a motion with the samples q (samples, n), in the joint's unit; its
-    joint; and a qualification: "" if it includes the values between the samples, because the motion
-    is complete and passes no singularity.
+    """Return the greatest speed of a motion with the samples q (samples, n), in the joint's unit;
+    the joint; and a qualification. The qualification is "" if the speed includes the values between
+    the samples, because the motion is complete and passes no singularity.
     """
     scale, h, track = sizes(arm), 1e-7 * t[-1], record(arm, t, q)
 

@@ -82,9 +82,9 @@ def motion(x=650, fraction=0.1):
 interact(motion, x=(300, 900), fraction=(0, 0.5, 0.01));""",
 }
 
-# `painted` collects a time for every picture: for a canvas, when it is cleared before drawing; for
-# an image, when it is new and decoded. The time is taken in a later task, when the picture is on
-# the screen.
+# `painted` collects a time for every picture: for a canvas when it is cleared for a new drawing,
+# and for an image when a new one has been decoded. The time is read in a later task, after the
+# picture has appeared on the screen.
 WATCH = """cell => {
     window.painted = [];
     const soon = () => { const c = new MessageChannel();
@@ -136,7 +136,7 @@ async def paced(send):
 
 
 async def dragged(page, target, touch=None, slider=False):
-    """The times in ms from a move to its paint, in the last of three drags of an element."""
+    """The times in ms from a move to its paint, for the last of three drags of an element."""
     await page.evaluate(PAINTS)
     for _ in range(3):
         box = await page.locator(target).bounding_box()

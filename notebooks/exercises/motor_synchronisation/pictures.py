@@ -151,8 +151,7 @@ def p10_view() -> Any:
     ax = fig.subplots()
     for j, (name, ways) in enumerate(missed().items()):
         color, dash = COMPARED[j]
-        look = {"color": color, "marker": "os"[j], "ms": 5}
-        ax.plot(list(ways), list(ways.values()), ls=dash, label=name, **look)
+        ax.plot(list(ways), list(ways.values()), "os"[j], ls=dash, color=color, ms=5, label=name)
     ax.legend(fontsize=9)
     ax.set(xlabel="frequency, pulses/s", ylabel="steps lost of 48", yticks=range(0, 49, 8))
     ax.set_title("Lost steps come in fours; a ramp loses fewer")

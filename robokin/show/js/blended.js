@@ -1,4 +1,4 @@
-// A blended motion, with the data of its curves and sentences.
+// A blended motion, with the data for its curves and sentences.
 
 import {follow, onward} from "./branches.js";
 import {number} from "./canvas.js";
@@ -13,18 +13,20 @@ import {record} from "./recorded.js";
 /** @import {Asked, State} from "./motion_parts.js" */
 
 /** @typedef {ReturnType<typeof motionOf>} Motion */
-/** @typedef {{place: Point, text: string}} Near  where a path passes via, and its distance */
+/** @typedef {{place: Point, text: string}} Near  where a path passes the via point, and its distance */
 /**
- * The greatest speeds and accelerations of a motion, including those between the samples if `sure`.
+ * The greatest speeds and accelerations of a motion. If `sure`, they include those between the
+ * samples.
  * @typedef {{sure: boolean, values: number[][]}} Tops
  */
 
 const LAWS = {quintic, trapezoidal, linear};
 
 /**
- * The motion for the current settings: the findings of `record`, times, joint values, positions
- * of the tool, where the path passes via; the samples after which its curves break, the pose at a
- * time, and the times at which an acceleration may jump.
+ * Computes the motion for the current settings: the findings of `record`, the times, the joint
+ * values, the positions of the tool, where the path passes the via point, the samples after which
+ * the curves break, a function that returns the pose at a time, and the times at which an
+ * acceleration may jump.
  * @param {MotionPage} data
  * @param {Asked} state
  */
@@ -59,8 +61,8 @@ export function motionOf(data, state) {
 }
 
 /**
- * The greatest speeds and accelerations, including those between the samples; null if the motion is
- * broken or passes a singularity, or if one of them does not converge.
+ * The greatest speeds and accelerations, including those between the samples. The result is null if
+ * the motion is broken or passes a singularity, or if the search for one of them does not converge.
  * @param {MotionPage} data
  * @param {Motion} motion
  * @param {number[][]} sampled
@@ -68,7 +70,7 @@ export function motionOf(data, state) {
 export function topsOf({arm, units, samples}, {t, q, missing, gaps, poseAt, times}, sampled) {
   if (gaps.size || missing[0]) return null;
   const step = t[1];
-  // a posture, with NaN at a singularity, where free joints may have any value
+  // the posture; NaN at a singularity, where free joints may have any value
   /** @type {(x: number) => number[]} */
   const posture = x => {
     const near = q[Math.min(Math.round(x / step), samples - 1)],
@@ -84,7 +86,7 @@ export function topsOf({arm, units, samples}, {t, q, missing, gaps, poseAt, time
 }
 
 /**
- * The greatest absolute value of joint j, NaN if there is none.
+ * The greatest absolute value of joint j; NaN if there is none.
  * @type {(rows: number[][], j: number) => number}
  */
 export const most = (rows, j) =>
@@ -94,8 +96,8 @@ export const most = (rows, j) =>
   );
 
 /**
- * now(): the motion for the current settings, computed again if they have changed; tops(held): its
- * greatest speeds and accelerations.
+ * `now()` returns the motion for the current settings, and computes it again if they have changed.
+ * `tops(held)` returns its greatest speeds and accelerations.
  * @param {MotionPage} data
  * @param {State} state
  */
@@ -125,7 +127,7 @@ export function motions(data, state) {
 }
 
 /**
- * The place of the path nearest to the via station, also between the samples; null if there is no
+ * The place of the path nearest to the via point, also between the samples; null if there is no
  * path.
  * @param {MotionPage} data
  * @param {PagePose} via
@@ -142,7 +144,7 @@ function passing({unit}, via, poseAt, t, missing) {
   let least = Infinity,
     at = NaN;
   for (const i of steps.flatMap(i => [i - 1, i])) if (far[i] < least) [least, at] = [far[i], t[i]];
-  // only these steps are long enough for the path to come nearer to via than at the samples
+  // only in these steps can the path come nearer to the via point than at the samples
   for (const i of steps.filter(
     k => Math.min(far[k - 1], far[k]) - distance(places[k], places[k - 1]) / unit.size < least,
   )) {

@@ -8,12 +8,12 @@ import {dashes, drawPanel, FAINT, strength} from "./panel.js";
 /** @import {Panel, Place, Times} from "./panel.js" */
 
 /**
- * Panels with a common time axis. `large`: the index of the large one; `names`: the names of the
- * arms, if there are several.
+ * Panels with a common time axis. `large` is the index of the large panel. `names` contains the
+ * names of the arms if there are several.
  * @typedef {{panels: Panel[], large: number, names: string[]}} Curves
  */
 /** @typedef {ReturnType<typeof curvesView>} CurvesView */
-/** @typedef {{text: string, color: string, width: number, dash: number[]}} Entry  of a legend */
+/** @typedef {{text: string, color: string, width: number, dash: number[]}} Entry  in a legend */
 
 const HEAD = 22, // px: the height of the name above a plot
   LEAST = 34, // px: the height of a small plot
@@ -23,7 +23,7 @@ const HEAD = 22, // px: the height of the name above a plot
  * Draws panels.
  *
  * draw(curves, times, ticks, now)  draws one picture
- * timeAt(x)                        the time at a place on the canvas
+ * timeAt(x)                        returns the time at a place on the canvas
  *
  * @param {HTMLCanvasElement} canvas
  * @param {number[][]} patterns  the dashes of the joints' lines
@@ -71,9 +71,9 @@ export function curvesView(canvas, patterns) {
 }
 
 /**
- * [index, height of the plot] of the panels for which there is room: always the large one, which
- * gets at least half, and as many of the others as fit, from the first one on. Without a large one
- * (-1) all have the same height.
+ * Returns [index, height of the plot] of the panels for which there is room: always the large
+ * panel, which gets at least half of the room, and as many of the others as fit, beginning with the
+ * first. If there is no large panel (-1), all panels have the same height.
  * @param {number} count
  * @param {number} large
  * @param {number} room
@@ -106,7 +106,8 @@ function tellTimes(g, [first, step, count, decimals], [t0, t1], x, y) {
     const unit = t + step > t1 + 1e-9 ? " s" : "";
     const text = number(t, decimals) + unit;
     g.font = font(11);
-    const most = g.canvas.clientWidth - 2 - g.measureText(text).width / 2; // inside the canvas
+    // keeps the text inside the canvas
+    const most = g.canvas.clientWidth - 2 - g.measureText(text).width / 2;
     write(g, text, Math.min(most, x(t) + (unit ? 4 : 0)), y, colors.soft, 11, "center");
   }
 }

@@ -23,7 +23,7 @@ import {point} from "./mark.js";
 /** @typedef {LeversPage & {arm: ThreeLeverArm}} LeversExplorer */
 /**
  * The cost of the free angle alpha: its range, its value, the best value, the limits of its joint,
- * and the cost `at` any value.
+ * and a function `at` that returns the cost of any value.
  * @typedef {object} Costs
  * @property {number} low
  * @property {number} high
@@ -34,7 +34,7 @@ import {point} from "./mark.js";
  */
 
 /**
- * Builds the view in every element that waits for this id.
+ * Builds the view in every placeholder with this id.
  * @param {string} id
  * @param {LeversExplorer} data
  */
@@ -144,7 +144,7 @@ function slidersOf(stage, {unit, controls}, state) {
 }
 
 /**
- * The cost of alpha at the point, with alpha moved into its range; null if no posture reaches the
+ * The cost of alpha at the point, with alpha clamped to its range; null if no posture reaches the
  * point.
  * @param {State} state
  * @returns {?Costs}
@@ -251,8 +251,8 @@ const pythonOf = ({code, unit}, {place, alpha, arm}) =>
   });
 
 /**
- * Draws the sum S of the absolute angle changes against the free angle. The axis of the angle keeps
- * the limits of its joint, so that the reader sees the range grow and shrink.
+ * Draws the sum S of the absolute angle changes against the free angle. The axis of the angle
+ * always covers the limits of its joint, so that the reader sees the range grow and shrink.
  * @param {HTMLCanvasElement} canvas
  * @param {Record<string, string>} says
  * @param {?Costs} costs
@@ -320,7 +320,8 @@ function drawCosts(canvas, says, costs) {
 }
 
 /**
- * Writes both ends of the range of the free angle below the axis, and each limit that has room.
+ * Writes both ends of the range of the free angle below the axis, and each limit for which there is
+ * room.
  * @param {CanvasRenderingContext2D} g
  * @param {Costs} costs
  * @param {(value: number) => number} x
@@ -334,7 +335,7 @@ function drawAngles(g, {low, high, limits}, x, y) {
   };
   name(low, 1, colors.ink, -3);
   name(high, 1, colors.ink, 3);
-  const room = 60; // px for a range's end and half of a limit
+  const room = 60; // px: the width of the text at one end, and half the width of a limit
   if (x(low) > x(limits[0]) + room) name(limits[0], 0, colors.soft, 0);
   if (x(high) < x(limits[1]) - room) name(limits[1], 0, colors.soft, 0);
 }

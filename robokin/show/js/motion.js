@@ -90,7 +90,7 @@ export function blend(start, via, goal, fraction, s, corner = "parabola") {
 export const lin_lin = (start, via, goal, s) => blend(start, via, goal, 0, s);
 
 /**
- * The law s(t) over `duration` seconds from `progress`, which maps t / duration to s.
+ * Makes the law s(t) over `duration` seconds from `progress`, which maps t / duration to s.
  * @param {number} duration
  * @param {(x: number) => number} progress
  * @returns {(t: number) => number}

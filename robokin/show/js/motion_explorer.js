@@ -21,7 +21,7 @@ import {frame} from "./target.js";
 /** @import {Stage} from "./stage.js" */
 
 /**
- * Builds the view in every element that waits for this id.
+ * Builds the view in every placeholder with this id.
  * @param {string} id
  * @param {MotionPage} data
  */

@@ -110,8 +110,8 @@ function inputsOf(stage, {words, unit, controls, laws, corners, branches, close_
 }
 
 /**
- * Returns a function that says whether the reader is dragging something. Then only the samples
- * count, since values between them take too long to compute.
+ * Returns a function that says whether the reader is dragging something. During a drag, only the
+ * samples count, since values between them take too long to compute.
  * @param {Frame} stage
  */
 function holding(stage) {
@@ -133,7 +133,7 @@ function holding(stage) {
 }
 
 /**
- * The arm at sample i; if there is no posture, the last one before it, faded.
+ * The arm at sample i. If there is no posture, the last posture before i is shown faded.
  * @param {MotionPage} data
  * @param {Motion} motion
  * @param {number} i

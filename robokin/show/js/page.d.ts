@@ -1,7 +1,7 @@
 // Written by `python tests/javascript.py types` from the TypedDicts of page.py, twin.py,
-// numbers.py, motors.py and things/, which say what everything is. Change those.
+// numbers.py, motors.py and things/, which describe every key. Edit those files instead.
 
-/** T with these of its optional keys there. */
+/** T in which these optional keys are present. */
 export type With<T, K extends keyof T> = T & Required<Pick<T, K>>;
 
 export type PageExplorer = JointPage | LeversPage | TargetPage | MotionPage | PlanPage | TourPage;

@@ -18,7 +18,7 @@ import {range} from "./sliders.js";
 /** @typedef {ReturnType<typeof furniture>} Parts */
 
 /**
- * Builds the view in every element that waits for this id.
+ * Builds the view in every placeholder with this id.
  * @param {string} id
  * @param {Page} data
  */
@@ -115,8 +115,8 @@ function furniture(data) {
   };
   parts.watch.value = String(data.watch.panel);
   parts.row.append(element("label", {}, "watch", parts.watch), folding("numbers", table));
-  // the controls are above the pictures, so that a small screen shows the slider and the arm
-  // together
+  // the controls are above the pictures, so that the slider and the arm are both visible on a small
+  // screen
   const rows = [parts.row, parts.says];
   if (slider || menu) rows.unshift(element("div", {class: "rk-row"}));
   if (slider && parts.slider)
@@ -227,7 +227,7 @@ function momentAt(times, time) {
 }
 
 /**
- * The arm for the scene; if there is no posture, the last one before it, faded.
+ * The arm for the scene. If there is no posture, the last posture before it is shown faded.
  * @param {Track} arm
  * @param {Moment} moment
  */

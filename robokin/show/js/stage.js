@@ -104,7 +104,7 @@ export function frameOf(root, data, picture) {
     run(answer, canvases = [], draw = () => {}) {
       drawn = pictures(root, [canvas, ...canvases], now => {
         if (stale) {
-          stale = false; // set first, since a running animation sets it again in `answer`
+          stale = false; // set first, since `answer` sets it again during an animation
           seen = answer(now);
         }
         draw();

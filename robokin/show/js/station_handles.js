@@ -1,5 +1,5 @@
 // The handles of a blended motion: start and goal move freely in the plane of the screen, the via
-// station also along the base's axes.
+// point also along the base's axes.
 
 import {fill} from "./blanks.js";
 import {number} from "./canvas.js";

@@ -29,13 +29,13 @@ import {degrees, inCode, radians, rotationOf} from "./turns.js";
  * @typedef {{place: Point, turns: number[], rotation?: number[], angle?: number}} Target
  */
 /**
- * The current target, the posture of the arm, the branch that the reader wants (-1: the nearest
+ * The current target, the posture of the arm, the branch that the reader wants (-1 for the nearest
  * one) and the branch shown.
  * @typedef {Target & {q: number[], wanted: number, chosen: number}} State
  */
 
 /**
- * Builds the view in every element that waits for this id.
+ * Builds the view in every placeholder with this id.
  * @param {string} id
  * @param {TargetExplorer} data
  */
@@ -133,7 +133,7 @@ const ghostsOf = ({rows, exists, usable, chosen}) =>
 
 /**
  * All branches at the target: the row, whether it exists, which of its joints are inside their
- * limits, its travel from the last posture; and the branch to show.
+ * limits, and its travel from the last posture; and the branch to show.
  * @param {TargetExplorer} data
  * @param {State} state
  */
