@@ -669,7 +669,7 @@ def shows_the_motion(shown, exact=True, held=False):
     path = blend(*stations, fraction, fine, corner=corner)
     place = "position" if isinstance(path, ScaraPose) else "translation"
     near = np.linalg.norm(getattr(path, place) - getattr(stations[1], place), axis=-1).min()
-    [told] = map(float, re.findall(r"passes via at (-?[\d.]+)", seen.says.replace("\u2212", "-")))
+    [told] = map(float, re.findall(r"passes (-?[\d.]+)", seen.says.replace("\u2212", "-")))
     if missing == 0:
         assert told == pytest.approx(near / size, abs=0.0505 if exact else 0.1)
     return SimpleNamespace(seen=seen, stations=stations, q=q, t=t, missing=missing)
@@ -1305,7 +1305,8 @@ def test_axe_finds_no_serious_problems(browser, opened, scheme):
     context.add_init_script(WATCH)
     q = np.linspace(0, 1, 41)[:, None] * np.array([0.5, 0.3, -0.4, 1, 1, 1])
     player = animate(IRB140, np.linspace(0, 2, 41), q, title="A turn of every joint")
-    for output in (*(make() for make in KINDS.values()), player):
+    corner = motion_explorer(IRB140, START, VIA, GOAL, close_up=True)
+    for output in (*(make() for make in KINDS.values()), corner, player):
         shown = opened(output, IRB140, within=context)
         shown.rk.locator("canvas").first.wait_for()
         found = Axe().run(shown.page, context=".rk").response["violations"]

@@ -47,6 +47,7 @@ EXPLORERS = {
     "motion": lambda: motion_explorer(IRB140, START, VIA, GOAL),
 }
 VIEWS = EXPLORERS | {
+    "corner": lambda: motion_explorer(IRB140, START, VIA, GOAL, close_up=True),
     "player": player,
     "levers": lambda: target_explorer(three_lever(0.3)),
     "elbow": lambda: elbow_explorer(IRB140),

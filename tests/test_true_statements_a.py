@@ -12,6 +12,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
+import robokin
 import robokin.arms.catalogue as catalogue
 from robokin import (
     IRB140,
@@ -304,9 +305,8 @@ def test_the_explorer_shows_the_values_of_the_table():
     path = g["start"], g["via"], g["goal"], 0.1
     view = next(s for s in sources("03").values() if s.startswith("motion_explorer("))
     explorer = eval(view, {"motion_explorer": motion_explorer} | g)
-    assert explorer.data["start_values"]["duration"] == number(r"It opens with (\d+) s", text)
+    assert explorer.data["start_values"]["duration"] == number(r"opens with (\d+) s", text)
     assert explorer.data["laws"][explorer.data["start_values"]["law"]] == "linear"
-    assert explorer.data["samples"] == number(r"in (\d+) samples", text)
     tops = []
     for count in (
         8001,
@@ -324,6 +324,62 @@ def test_the_explorer_shows_the_values_of_the_table():
     middle = (quintic(1.0)(0.5 + h) - quintic(1.0)(0.5 - h)) / (2 * h)
     seconds = number(r"Set (\d+) s and the quintic law", text)
     assert quarter == (20 / seconds) ** 2 and middle**2 == pytest.approx(law, abs=5e-3)
+    half = [int(x) for x in re.search(r"by a factor of (\d), .* limit by (\d)\.", text).groups()]
+    assert half == [2**2, 2]  # an acceleration is per second squared, a speed per second
+
+
+def test_the_first_view_shows_how_near_the_path_can_pass():
+    cells = sources("03")
+    most = number(r"no joint needs more than (\d+)°/s²", cells["title"])
+    near = number(r"</summary>(\S+) mm, with a blend", cells["able"])
+    least = number(r"with a blend of (\S+)\.</details>", cells["able"])
+    lines = cells["close-up"].splitlines()
+    assert len(lines) == 4  # which run in a fresh kernel
+    g = {}
+    exec("\n".join([*lines[:-1], f"view = {lines[-1]}"]), g)
+    data, stations = g["view"].data, list(g["stations"])
+    law, row = getattr(robokin, data["laws"][data["start_values"]["law"]])(20.0), 1
+    assert (data["start_values"]["duration"], data["start_values"]["row"]) == (20, row)
+    t = np.linspace(0, 20, 20_001)
+    tops = []
+    for b in (least - 0.001, least):  # the ring moves in steps of 0.001
+        path = blend(*stations, b, law(t))
+        q = follow(IRB140, IRB140.ik(path), row)
+        tops.append(abs(differentiate(q, t, 2)).max() / deg)
+    assert tops[0] > most > tops[1]
+    away = np.linalg.norm(path.translation - stations[1].translation, axis=-1).min() / mm
+    assert away == pytest.approx(near, abs=0.05)
+    g, _ = run("03", "setup")  # the sections have the same three poses
+    for name, pose in zip(("start", "via", "goal"), stations, strict=True):
+        assert np.allclose(g[name].as_matrix(), pose.as_matrix(), rtol=0, atol=1e-12)
+
+
+def test_ptp_wins_every_race_and_has_the_longer_way():
+    """The joint speeds on the line come from the Jacobian, those of PTP from the joint values at
+    both ends of the line.
+    """
+    g, _ = run("03", "setup", "race")
+    least, most = (number(p, sources("03")["race-says"]) for p in (r"by (\S+) to", r"to (\S+) s"))
+    left, lead = g["left"], []
+    for y, shown in zip(g["goal_ys"], g["race_times"], strict=True):
+        goal = Transform(Quaternion.from_angle_axis(90 * deg, Y), (0.2, y * mm, 0.8))
+        s = np.linspace(0, 1, 4001)
+        q = follow(IRB140, IRB140.ik(left.lerp(goal, s)), 1)
+        angle, axis = (goal.rotation @ left.rotation.inverse()).as_angle_axis()
+        twist = np.concatenate([goal.translation - left.translation, angle * axis])
+        speeds = np.linalg.solve(IRB140.jacobian(q), np.tile(twist, (len(s), 1))[..., None])[..., 0]
+        straight = (abs(speeds) / IRB140.speed_limits).max()
+        direct = (abs(q[-1] - q[0]) / IRB140.speed_limits).max()
+        assert np.allclose(shown, (straight, direct), rtol=1e-4)
+        lead.append(straight - direct)
+        ways = [
+            np.linalg.norm(np.diff(IRB140.fk(each).translation, axis=0), axis=-1).sum()
+            for each in (q, q[0] + s[:, None] * (q[-1] - q[0]))
+        ]
+        assert ways[1] > ways[0]
+    assert min(lead) == pytest.approx(least, abs=5e-3) and max(lead) == pytest.approx(
+        most, abs=5e-3
+    )
 
 
 # --- Labs 04 and 05 -------------------------------------------------------------------------------

@@ -679,23 +679,26 @@ def test_page_refines_the_same_maxima(twin):
     for low, high, decimals in ((0, 3, 1), (0.4, 1.9, 3), (-2, -0.7, 5)):
         got = twin(
             "return [x => Math.sin(3 * x), x => -Math.abs(x - 0.6), x => (x < 1 ? x : NaN)].map("
-            "f => refinedMaximum(f, ...a));",
+            "f => Object.values(refinedMaximum(f, ...a))).flat();",
             None,
             [low, high, decimals],
-            shape=(3,),
+            shape=(3, 2),
         )
         want = [
-            refined_maximum(f, low, high, decimals).value
+            refined_maximum(f, low, high, decimals)
             for f in (
                 lambda x: np.sin(3 * x),
                 lambda x: -abs(x - 0.6),
                 lambda x: np.where(x < 1, x, np.nan),
             )
         ]
-        close(got, np.array(want), 1e-15)
+        value, at = np.transpose(want)
+        close(got[:, 0], value, 1e-15)
+        # rounding may decide which of two equal samples beside the top of a sine counts
+        close(got[:, 1], at, 10.0 ** -(decimals + 1))
     for nothing in ("() => NaN", "x => 1 / Math.abs(x - Math.SQRT1_2)"):
-        got = twin(f"return [refinedMaximum({nothing}, 0, 1, 2)];", None, [0], shape=(1,))
-        assert np.isnan(got[0])
+        got = twin(f"return Object.values(refinedMaximum({nothing}, 0, 1, 2));", None, [0], shape=2)
+        assert np.isnan(got).all()
 
 
 RULES = f"{{least: {LEAP}, few: {FEW}}}"  # the rules for jumps in position

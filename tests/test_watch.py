@@ -78,15 +78,17 @@ def two_arms(motions):
     return animate([IRB140, IRB140], T, [motions, motions[::-1]], names=["A", "B"], **PLAIN)
 
 
-def in_one_space(_):
-    return animate([IRB140] * 2, CLOCK, [TURNING] * 2, names=["A", "B"], bases=[[0, 0], [0, 1]])
+def in_one_space(_, other=(0, 1)):
+    return animate([IRB140] * 2, CLOCK, [TURNING] * 2, names=["A", "B"], bases=[[0, 0], other])
 
 
 VIEWS = {
     "one arm": (lambda q: animate(IRB140, T, q, **PLAIN), 560),
     "two arms": (two_arms, 600),
     "one space": (in_one_space, 640),
+    "one place": (lambda _: in_one_space(_, (0, 0)), 560),
     "motion explorer": (lambda _: motion_explorer(IRB140, START, VIA, GOAL), 560),
+    "corner": (lambda _: motion_explorer(IRB140, START, VIA, GOAL, close_up=True), 560),
 }
 
 

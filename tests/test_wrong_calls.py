@@ -369,6 +369,7 @@ CALLS = {
             row=1,
             law="linear",
             duration=4.0,
+            close_up=True,
         ),
     ),
     "plan_explorer": (

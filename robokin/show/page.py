@@ -329,7 +329,7 @@ class TargetPage(ArmPage):
 
 class MotionPage(ArmPage):
     """The data of the motion explorer: the stations, the initial values, the names of laws,
-    corners, branches and panels, and the number of samples.
+    corners, branches and panels, the number of samples, and whether it shows the corner close up.
     """
 
     kind: Literal["motion"]
@@ -344,6 +344,7 @@ class MotionPage(ArmPage):
     panels: list[str]
     samples: int
     jumps: JumpRules
+    close_up: bool
 
 
 class SingularityPage(ArmPage):

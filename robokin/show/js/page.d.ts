@@ -392,6 +392,7 @@ export interface MotionPage {
   panels: string[];
   samples: number;
   jumps: JumpRules;
+  close_up: boolean;
 }
 
 export interface SingularityPage {

@@ -54,12 +54,12 @@ export function peaks(posture, ends, sizes, near) {
       return found;
     };
     for (const [order, values] of near.entries())
-      for (const [j, value] of values.entries()) {
-        const top = refinedMaximum(
+      for (const [j, about] of values.entries()) {
+        const {value: top} = refinedMaximum(
           t => Math.abs(at(t)[order][j]) / sizes[j],
           low,
           high,
-          decimalsOf(value),
+          decimalsOf(about),
         );
         if (!sure || Number.isNaN(top)) return null;
         best[order][j] = Math.max(best[order][j], top);

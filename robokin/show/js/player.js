@@ -122,7 +122,9 @@ function furniture(data) {
   if (slider && parts.slider)
     rows[0].append(element("label", {class: "rk-long"}, slider.label, parts.slider, parts.value));
   if (menu && parts.menu) rows[0].append(element("label", {}, menu.label, parts.menu));
-  const size = data.scene.bases ? " rk-wide" : arms.length > 1 ? " rk-several" : "";
+  const {bases} = data.scene, // arms that stand at one place need no more width than one arm
+    apart = !!bases && new Set(bases.map(String)).size > 1,
+    size = apart ? " rk-wide" : arms.length > 1 && !bases ? " rk-several" : "";
   const frame = element(
     "div",
     {class: "rk rk-player", role: "group", "aria-label": data.title},

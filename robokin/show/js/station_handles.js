@@ -9,17 +9,18 @@ import {AXES} from "./triad.js";
 
 /** @import {Point} from "./canvas.js" */
 /** @import {Handle} from "./handles.js" */
-/** @import {Asked, MotionData, Stations} from "./motion_explorer.js" */
+/** @import {MotionPage} from "./page.js" */
+/** @import {Asked, Stations} from "./motion_parts.js" */
 /** @import {Stage} from "./stage.js" */
 
-/** @typedef {{stage: Stage, state: Asked, data: MotionData, fine: number}} Held */
+/** @typedef {{stage: Stage, state: Asked, data: MotionPage, fine: number}} Held */
 
 export const STATIONS = /** @type {const} */ (["start", "via", "goal"]);
 
 /**
  * @param {Stage} stage
  * @param {Asked} state
- * @param {MotionData} data
+ * @param {MotionPage} data
  * @returns {Handle[]}
  */
 export function stationHandles(stage, state, data) {
