@@ -5,6 +5,7 @@ The tests also check that the script that executes the labs again makes no unnec
 
 import ast
 import base64
+import builtins
 import io
 import json
 import re
@@ -19,6 +20,7 @@ import nbformat
 import pytest
 from conftest import NOTEBOOKS, PATIENCE, ROOT
 from PIL import Image
+from rerun import Cell
 
 from robokin.show import joiner
 
@@ -33,7 +35,11 @@ TEACHING, GLOSSARY = (
     NOTEBOOKS / "documents" / f"{name}.ipynb" for name in ("teaching", "glossary")
 )
 UNCOMPARED = {"nbval-ignore-output", "nbval-skip", "nbval-check-output", "raises-exception"}
-PARTS = ("Your turn", "In short", "Next", "Deeper")
+# A lab of the old shape has "Deeper" instead of "More"
+PARTS = ("Your turn", "In short", "Next", "Deeper", "More")
+NEW_LABS = [
+    lab for lab in LABS if not lab_sizes.old(json.loads(lab.read_text(encoding="utf-8"))["cells"])
+]
 every_lab = pytest.mark.parametrize("lab", LABS, ids=lambda path: path.stem)
 HEADINGS = ("You will be able to", "Your turn", "In short", "Next")
 
@@ -216,22 +222,70 @@ def test_labs_have_all_parts_in_the_same_order(lab):
 
 @every_lab
 def test_labs_do_not_exceed_the_size_limits(lab):
-    size = lab_sizes.measure(lab)
-    assert not lab_sizes.too_long(lab.stem, size), size
+    length = lab_sizes.measure(lab)
+    assert not lab_sizes.too_long(lab.stem, length), length
 
 
 @every_lab
 def test_labs_open_with_a_view(lab):
-    """A lab opens with a title and a claim, a cell of at most four lines that shows a view, and a
-    folded set-up cell. The view comes first if it has its own imports.
+    """A lab opens with a title and a claim, and a cell of at most four lines that shows a view and
+    needs no other cell. In a lab of the old shape, a folded set-up cell may come before it.
     """
-    first, *pair = json.loads(lab.read_text(encoding="utf-8"))["cells"][:3]
-    thing, setup = sorted(pair, key=lab_sizes.folded)
-    assert (pair[0] is thing) == any("import" in line for line in thing["source"])
+    cells = json.loads(lab.read_text(encoding="utf-8"))["cells"]
+    first, view = cells[:2]
+    if lab_sizes.old(cells):
+        view, setup = sorted(cells[1:3], key=lab_sizes.folded)
+        assert (cells[1] is view) == any("import" in line for line in view["source"])
+        assert lab_sizes.folded(setup) and "import" in "".join(setup["source"])
+    else:
+        assert not Cell("".join(view["source"])).reads - set(dir(builtins))
     assert re.search(r"\n\*\*[^*]+[.?!]\*\*", "".join(first["source"])), "no claim in bold"
-    assert lab_sizes.folded(setup) and "import" in "".join(setup["source"])
-    assert not lab_sizes.folded(thing) and len(thing["source"]) <= 4
-    assert any("rk" in "".join(o.get("data", {}).get("text/html", "")) for o in thing["outputs"])
+    assert not lab_sizes.folded(view) and len(view["source"]) <= 4
+    assert any("rk" in "".join(o.get("data", {}).get("text/html", "")) for o in view["outputs"])
+
+
+@pytest.mark.parametrize("lab", NEW_LABS, ids=lambda path: path.stem)
+def test_section_runs_alone_or_names_the_sections_to_run_first(lab):
+    """The cells of a section read only names that are set in this section or in those that its text
+    names: "Run section 2 first", "Run sections 2 and 4 first", 'Run "Your turn" first'. These
+    sections may name others in turn.
+    """
+    sections = _sections(lab)
+    for title in sections:
+        needed, to_do = set(), [title]
+        while to_do:
+            now = to_do.pop()
+            needed.add(now)
+            to_do += [each for each in _run_first(sections, now) if each not in needed]
+        cells = [cell for each in sections if each in needed for cell in sections[each][1]]
+        known = set(dir(builtins))
+        for cell in cells:
+            assert not cell.reads - known, (title, cell.reads - known)
+            known |= cell.writes
+
+
+def _sections(lab):
+    """Return a dict that maps the title of each part of a lab to its text and its cells."""
+    sections = {}
+    title = "top"
+    for cell in nbformat.read(lab, as_version=4).cells:
+        if cell.cell_type == "markdown":
+            for found in re.findall(r"^## (.*)$", cell.source, re.M):
+                title = found
+            sections.setdefault(title, (["\n"], []))[0].append(cell.source)
+        else:
+            sections.setdefault(title, (["\n"], []))[1].append(Cell(cell.source))
+    return {
+        title: (" ".join("\n".join(text).split()), made) for title, (text, made) in sections.items()
+    }
+
+
+def _run_first(sections, title):
+    """The titles of the sections that must run before the section `title`."""
+    found = re.findall(r"\b[Rr]un sections? (\d+(?:(?:, | and )\d+)*) first", sections[title][0])
+    first = {number for each in found for number in re.findall(r"\d+", each)}
+    first |= {"Your turn"} if 'Run "Your turn" first' in sections[title][0] else set()
+    return [each for each in sections if each.split(".")[0] in first]
 
 
 def test_joints_are_counted_from_one(prose):
@@ -350,10 +404,10 @@ def test_minutes_in_the_teacher_notes_are_up_to_date():
         r"^\| \[(\d\d)[^\]]*\]\(\.\./(\S+)\) \| (\d+) \| (\d+) \|", _prose(TEACHING), re.M
     )
     assert [row[1] for row in rows] == [lab.name for lab in LABS]
-    for (number, _, reading, whole), lab in zip(rows, LABS, strict=True):
-        size = lab_sizes.measure(lab)
+    for (number, _, core, whole), lab in zip(rows, LABS, strict=True):
         assert number == lab.stem[:2]
-        assert (int(reading), int(whole)) == (round(size.reading), round(size.minutes)), lab.stem
+        minutes = tuple(round(each) for each in lab_sizes.measure(lab).minutes)
+        assert (int(core), int(whole)) == minutes, lab.stem
 
 
 def test_teacher_notes_have_the_same_parts_for_every_lab():
