@@ -375,6 +375,10 @@ CALLS = {
         dict(arm=LEVERS, posture=FOLDED, target=POINT, obstacle=OBSTACLE),
     ),
     "motor_explorer": (figures.motor_explorer, dict(motor=STEPPER)),
+    "movement_explorer": (
+        figures.movement_explorer,
+        dict(arm=LEVERS, previous=FOLDED, target=POINT),
+    ),
     "bars": (
         figures.bars,
         dict(ax=PLOT, values={"a": 1.0}, form="{:g} s", xlabel="t, s", title="t"),
