@@ -261,7 +261,7 @@ def test_posture_slightly_off_is_reported_with_different_numbers():
         side = np.arctan2(K[1], K[0])
         return [2 * side - gamma, 2 * np.pi - beta, 2 * np.pi - alpha]
 
-    assert "reaches K, too, in another posture" in check("three_levers.1", other_bend).case
+    assert "reaches K, too, but it is another posture" in check("three_levers.1", other_bend).case
 
 
 def first_and_last_angle(program):

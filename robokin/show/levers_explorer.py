@@ -78,11 +78,12 @@ def movement_explorer(arm: ThreeLeverArm, previous: ArrayLike, target: ArrayLike
             raise ValueError(f"target: wanted points in reach, got {short(place.tolist())}: {why}")
     name, size = length_unit(extent(arm))
     best, S = arm.least(places[0], before)
+    least = number(float(S) / deg, 1)
     where = ", ".join(number(x, 0 if size == mm else 3) for x in places[0] / size)
     summary = (
         f"{arm.name} and the sum S of the angle changes from gamma, beta, alpha "
         f"{', '.join(number(x, 1) for x in before / deg)}° to the point ({where}) {name}, over the "
-        f"free angle alpha: S is least, {number(float(S) / deg, 1)}°, at {number(best[2] / deg, 1)}°."
+        f"free angle alpha: S is least, {least}°, at {number(best[2] / deg, 1)}°."
     )
     rows = arm.family(places[:, None], np.linspace(*arm.alpha_range(places), 3, axis=-1))
     seen = np.concatenate([before[None], rows.reshape(-1, 3)])
