@@ -124,7 +124,7 @@ def _page(
         summary,
         controls,
         seen,
-        meant=TAKE + "The broken posture is where S is counted from.",
+        meant=TAKE + "S counts from the dashed posture.",
         code=f"{imports(arm, *['three_lever'] * unequal)}\n"
         f"{'arm = three_lever(({levers}))' if unequal else '# arm = three_lever(...)'}\n"
         f"q = arm.family(({{x}}{unit}, {{y}}{unit}), {{alpha}} * deg)",
