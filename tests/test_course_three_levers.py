@@ -118,11 +118,11 @@ def added(K, alpha, lengths):
             of_the_lab,
             "the formulas of equal levers, with OB, and clipped where there is no triangle",
         ),
-        (first_of_the_lab, "L of the lab for OB"),
+        (first_of_the_lab, "L of the lab used as OB"),
         (whole_arm, "the reach of the whole arm"),
         (folded, "beta folded below 180°"),
         (added, "the wrong sign in the law of cosines"),
-        (limited, "limits are looked at"),
+        (limited, "the limits are checked"),
         (equal_levers, "the formulas of equal levers, with OB"),
         (no_direction, "the direction of K left out"),
         (quotient, "arctan of y / x"),
@@ -263,7 +263,7 @@ def test_slightly_wrong_posture_is_reported_with_different_numbers():
         side = np.arctan2(K[1], K[0])
         return [2 * side - gamma, 2 * np.pi - beta, 2 * np.pi - alpha]
 
-    assert "reaches K, too, in another posture" in check("three_levers.1", other_bend).case
+    assert "reaches K, too, but it is another posture" in check("three_levers.1", other_bend).case
 
 
 def first_and_last_angle(program):

@@ -560,7 +560,10 @@ def test_sliders_change_the_lever_lengths(opened):
     assert all(a != b for a, b in zip(seen.pixels, first.pixels, strict=True))
     shown.type("lever AK", 1.5)  # the point is now nearer than |OB - BA| + AK
     shown.type("lever BA", 0.5)
-    assert shown.look().says == "No posture reaches this point."
+    assert shown.look().says == (
+        "No posture reaches this point: it lies 1565.2 mm from the base, not farther than "
+        "|OB \N{MINUS SIGN} BA| + AK (2300.0 mm)."
+    )
 
 
 def test_axis_of_the_free_angle_is_the_same_for_every_target(context, opened):

@@ -176,7 +176,7 @@ def test_page_types_match_those_of_python():
 
 KEYS = {  # for each kind of page: a key that only this kind has, and a script that uses it
     "joint": ("rows: FactRow[];", "joint_explorer.js"),
-    "levers": ("target: PagePose;", "levers_explorer.js"),
+    "levers": ("curve: PageCosts;", "levers_explorer.js"),
     "elbow": ("elbows: string[];", "elbow_explorer.js"),
     "target": ("turning: number[];", "target_explorer.js"),
     "motion": ("samples: number;", "blended.js"),

@@ -269,7 +269,7 @@ def test_noise_in_the_last_bit_does_not_change_the_race(monkeypatch):
 def test_random_choice_turns_the_joints_more_by_the_stated_factor():
     question, options, right = asked("three_levers.p10")
     places, _, seed = race_of_the_cell(100)
-    assert question.startswith("100 targets") and "evenly from 0° to 180°" in question
+    assert question.startswith("An arm visits 100 targets") and "evenly from 0° to 180°" in question
     stand = {name: np.array([60, 120, 120]) * deg for name in ("least", "dice", "equal")}
     turned, dice = dict.fromkeys(stand, 0.0), np.random.default_rng(seed)
 
@@ -305,7 +305,10 @@ def test_random_choice_turns_the_joints_more_by_the_stated_factor():
             stand[name] = q
     times = turned["dice"] / turned["least"]
     assert options[right].text == f"About {times:.1f} times as much."
-    told = re.search(r"takes (\d+)° a task.* add (\d+)°.* take (\d+) % more", options[right].reason)
+    text = " ".join([question, options[right].reason])
+    told = re.search(r"takes (\d+)° a task.* adds (\d+)°.* takes (\d+) % more", text)
+    wide = np.diff(ARM.alpha_range(places), axis=0).mean() / deg
+    assert f"the range of alpha is {wide:.0f}° wide on average" in question
     own = [turned["least"], turned["dice"] - turned["least"]]
     own.append(1e4 * (turned["equal"] / turned["least"] - 1))
     assert [round(x / 100) for x in own] == [int(x) for x in told.groups()]

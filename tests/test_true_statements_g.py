@@ -386,13 +386,15 @@ def test_random_choice_turns_joints_less_as_often_as_stated_but_never_from_the_s
     found = option("three_levers.p10", "hardly more")
     reason = one_line(found.reason)
     assert (
-        "Chance evens out where it errs to both sides alike. From the posture in which the dice "
-        "arm stands, a throw never turns less than the least, and nearly always more" in reason
+        "Chance evens out if it errs to both sides alike. From the posture in which the second arm "
+        "is, a random posture never turns less than the least movement, and nearly always more"
+        in reason
     )
-    told = r"In (\d+) of these (\d+) tasks the dice arm happens to stand better .* turns less, but"
+    told = r"In (\d+) of these (\d+) tasks the second arm happens to .* and turns less, but"
     fewer, tasks = numbers(told, reason)
-    assert "one day of ten, on average, and loses time on the other nine" in one_line(found.second)
-    assert "In one task, begun in the same posture, no rule can undercut" in flat("09", "race-look")
+    assert "one day of ten, on average, and lose time on the other nine" in one_line(found.second)
+    law = "In one task, begun in the same posture, no rule can turn less than least movement"
+    assert law in flat("09", "race-look")
     drawn = np.random.default_rng(4).uniform(0, np.pi, (300, 3))
     places = [gripper(q) for q in drawn]
     places = [K for K in places if np.isfinite(ARM.alpha_range([K.real, K.imag])[0])][:100]
@@ -443,10 +445,11 @@ def test_width_of_the_narrower_range_follows_from_inverse_proportion():
 def test_recipe_for_the_other_bend_reaches_targets_behind_the_base():
     words = flat("09", "deeper-more")
     assert (
-        "Mirror K in the x axis, solve with `posture` of section 3, mirror back, and look at the "
-        r"limit of $\gamma$ only then: which targets behind the base does that arm serve?" in words
+        "Mirror K in the x axis, solve with `posture` of section 2, mirror back, and check the "
+        r"limit of $\gamma$ only then. Which targets behind the base does this arm serve?" in words
     )
-    made = quietly("09", "imports", "opening", "chain-code", "range-code", "angles-code")
+    assert "in every direction behind the base: at 1.2, 2.0 and 2.8 m we find postures" in words
+    made = quietly("09", "chain-explorer", "chain-code", "angles-code")
     mirrored = 2 * np.array([np.cos(150 * deg), -np.sin(150 * deg)])
     assert np.isnan(ARM.alpha_range(mirrored)).all()  # the package's solvers find no posture
     assert np.isnan(ARM.least(mirrored, np.array([60, 120, 120]) * deg)[1])
@@ -470,9 +473,9 @@ def test_recipe_for_the_other_bend_reaches_targets_behind_the_base():
 
 def test_arctan2_works_at_x_equal_to_0():
     words = flat("09", "atan-look")
-    assert "`arctan2` looks at both signs, and $x = 0$ is no trouble to it." in words
+    assert "`arctan2` looks at both signs, and $x = 0$ is no problem." in words
     assert "which knows the quadrant and serves $p_1 = 0$, too." in flat("000", "inverse")
-    made = quietly("09", "imports", "opening", "chain-code", "range-code", "angles-code")
+    made = quietly("09", "chain-explorer", "chain-code", "angles-code")
     assert math.atan2(2, 0) == math.pi / 2 and math.atan2(-2, 0) == -math.pi / 2
     assert gripper(made["posture"]((0.0, 2.0), 150 * deg)) == pytest.approx(2j)
     with pytest.raises(ZeroDivisionError):
@@ -482,7 +485,7 @@ def test_arctan2_works_at_x_equal_to_0():
 def test_clipped_arm_stretches_or_folds_and_does_not_reach_k():
     words = says("three_levers", "clipped where there is no triangle")
     assert words.endswith(
-        "Clipped, the arm stretches or folds, does not reach K, and nobody is told."
+        "With clipped cosines the arm stretches or folds, does not reach K, and nobody is told."
     )
     condition, space = "abs(a - KB) <= KO <= a + KB", {}
     assert LEVERS.solution.count(condition) == 1

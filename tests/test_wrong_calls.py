@@ -385,6 +385,10 @@ CALLS = {
         dict(arm=IRB140, q=np.zeros(6), way=(0.0, 1.0, 1.0), most=0.02, step=0.001),
     ),
     "motor_explorer": (figures.motor_explorer, dict(motor=STEPPER)),
+    "movement_explorer": (
+        figures.movement_explorer,
+        dict(arm=LEVERS, previous=FOLDED, target=POINT),
+    ),
     "bars": (
         figures.bars,
         dict(ax=PLOT, values={"a": 1.0}, form="{:g} s", xlabel="t, s", title="t"),

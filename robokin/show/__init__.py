@@ -8,6 +8,7 @@ try:
     from .explorer import Explorer
     from .explorers import joint_explorer, target_explorer
     from .joint_plot import plot_joints
+    from .levers_explorer import movement_explorer
     from .motion_explorer import motion_explorer
     from .motors import motor_explorer
     from .palette import JOINT_STYLES
@@ -35,6 +36,7 @@ __all__ = [
     "joint_explorer",
     "motion_explorer",
     "motor_explorer",
+    "movement_explorer",
     "plan_explorer",
     "plot_frames",
     "plot_joints",

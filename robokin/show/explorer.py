@@ -68,14 +68,6 @@ WORDS: Mapping[str, str] = {
     "ringsVia": "via point along x, y, z",
     "law": "time law",
     "corner": "corner",
-    "costs": "The sum S of the angle changes, against the free angle alpha.",
-    "costTitle": "S, the sum of the angle changes",
-    "costAxis": "free angle alpha",
-    "costSays": "gamma {gamma}°, beta {beta}°, alpha {alpha}°: S = {S}°. The least S is "
-    "{least}°, at alpha = {best}°.",
-    "outside": "No posture reaches this point.",
-    "least": "Least S",
-    "begin": "Begin here",
     "curves": "Curves over time: joint values, speeds, accelerations. The greatest values are in "
     "the table.",
     "speed": "greatest speed, per s",

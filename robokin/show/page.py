@@ -292,12 +292,26 @@ class JointPage(ArmPage):
     wrist: list[float] | None
 
 
+class PageCosts(TypedDict):
+    """The curve of the sum S over the free angle alpha: its title, the text of its axis, and the
+    names of its three terms and the dashes of their lines, or none if only S is drawn.
+    """
+
+    title: str
+    axis: str
+    terms: list[str]
+    dashes: list[list[float]]
+
+
 class LeversPage(ArmPage):
-    """The data of the explorer of three levers: the point `target`, and the previous posture q."""
+    """The data of an explorer of three levers: the previous posture q, the points to reach one
+    after the other, and the curve of the sum of the angle changes.
+    """
 
     kind: Literal["levers"]
     q: list[float]
-    target: PagePose
+    targets: list[PagePose]
+    curve: PageCosts
 
 
 class ElbowPage(ArmPage):

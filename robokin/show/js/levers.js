@@ -247,25 +247,13 @@ function level(arm, KO, low, high) {
  * @returns {number[]}
  */
 export function least(arm, point, previous, limited = true) {
-  const {
-      geometry: {
-        levers: [a, b, c],
-      },
-      tolerances,
-    } = arm,
-    [gamma0, beta0, alpha0] = previous;
   const [KO, phi] = polar(arm, point),
     [low, high] = alpha_range(arm, point, limited);
   if (Number.isNaN(low)) return nowhere(3);
-  const BAO = beside(b, a, beta0),
-    atA = angleOf(across(a, b, beta0), c, KO, tolerances);
   const alphas = [
     low,
     high,
-    alpha0,
-    alphaOfGamma(arm, KO, gamma0 - phi),
-    BAO + atA,
-    BAO - atA,
+    ...keeping(arm, KO, phi, previous).map(({alpha}) => alpha),
     ...level(arm, KO, low, high),
   ];
   const rows = alphas.map(alpha =>
@@ -273,3 +261,48 @@ export function least(arm, point, previous, limited = true) {
   );
   return leastTravel(rows, previous);
 }
+
+/** @typedef {{alpha: number, joint: number}} Kink  the joint, from 0, keeps its angle at alpha */
+
+/**
+ * The alphas at which an angle may keep its previous value, NaN if there is none.
+ * @param {ThreeLeverArm} arm
+ * @param {number} KO
+ * @param {number} phi
+ * @param {number[]} previous
+ * @returns {Kink[]}
+ */
+function keeping(arm, KO, phi, [gamma0, beta0, alpha0]) {
+  const {
+    geometry: {
+      levers: [a, b, c],
+    },
+    tolerances,
+  } = arm;
+  const BAO = beside(b, a, beta0),
+    atA = angleOf(across(a, b, beta0), c, KO, tolerances);
+  return [
+    {alpha: alpha0, joint: 2},
+    {alpha: alphaOfGamma(arm, KO, gamma0 - phi), joint: 0},
+    {alpha: BAO + atA, joint: 1},
+    {alpha: BAO - atA, joint: 1},
+  ];
+}
+
+/**
+ * The kinks of S as a function of alpha.
+ * @param {ThreeLeverArm} arm
+ * @param {{place: number[]}} point
+ * @param {number[]} previous
+ * @returns {Kink[]}
+ */
+export function kinks(arm, point, previous) {
+  const [KO, phi] = polar(arm, point),
+    [low, high] = alpha_range(arm, point);
+  return keeping(arm, KO, phi, previous).filter(({alpha, joint}) => {
+    const q = leverPosture(arm, KO, phi, alpha);
+    return alpha >= low && alpha <= high && Math.abs(q[joint] - previous[joint]) < KEPT;
+  });
+}
+// rad: an angle that has changed by less than this has kept its value
+export const KEPT = 1e-6;

@@ -311,6 +311,13 @@ export interface JointPage {
   wrist: number[] | null;
 }
 
+export interface PageCosts {
+  title: string;
+  axis: string;
+  terms: string[];
+  dashes: number[][];
+}
+
 export interface LeversPage {
   title: string;
   summary: string;
@@ -325,7 +332,8 @@ export interface LeversPage {
   units: PageUnit[];
   kind: "levers";
   q: number[];
-  target: PagePose;
+  targets: PagePose[];
+  curve: PageCosts;
 }
 
 export interface ElbowPage {
