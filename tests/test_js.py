@@ -179,6 +179,7 @@ KEYS = {  # kind of page -> a key that only this kind has, and a script that use
     "levers": ("target: PagePose;", "levers_explorer.js"),
     "target": ("turning: number[];", "target_explorer.js"),
     "motion": ("samples: number;", "blended.js"),
+    "rotation": ("across: number[];", "rotation_explorer.js"),
     "plan": ("forbidden: number;", "plan_explorer.js"),
     "tour": ("spare: number[][];", "tour_explorer.js"),
 }

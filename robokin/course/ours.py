@@ -38,7 +38,7 @@ from .texts import all_visible, visible
 MARK = 'class="robokin-player"'
 LEFT_OUT = Markup("<p>An output of robokin that cannot be read is left out here.</p>")
 ASK = "prediction.ask"
-EXPLORERS = ("joint", "target", "motion", "levers", "plan", "tour")
+EXPLORERS = ("joint", "target", "motion", "levers", "rotation", "plan", "tour")
 KINDS: dict[str, Any] = {
     "player.play": Page,
     "joint_curves.show": PageCurves,

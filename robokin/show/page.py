@@ -333,6 +333,23 @@ class MotionPage(ArmPage):
     jumps: JumpRules
 
 
+class RotationPage(ExplorerPage):
+    """The data of the rotation explorer: two perpendicular unit vectors (the axis, and the one
+    across it towards v), the length of v in metres, the opening angles in radians (of the rotation,
+    and between v and the axis), the names of the rows and the headings of the table, and the number
+    of decimals of lengths.
+    """
+
+    kind: Literal["rotation"]
+    axis: list[float]
+    across: list[float]
+    length: float
+    angles: list[float]
+    rows: list[str]
+    heads: list[str]
+    decimals: int
+
+
 class LivePage(ExplorerPage):
     """The additional data of `live.Live`: the first question of an explorer, and its answer."""
 
@@ -363,7 +380,9 @@ class TourPage(LivePage):
     spare: list[list[float]]
 
 
-PageExplorer: TypeAlias = JointPage | LeversPage | TargetPage | MotionPage | PlanPage | TourPage
+PageExplorer: TypeAlias = (
+    JointPage | LeversPage | TargetPage | MotionPage | RotationPage | PlanPage | TourPage
+)
 
 
 class PageAnswer(TypedDict):

@@ -5,6 +5,14 @@ import {control} from "./elements.js";
 /** @import {PageScene} from "./page.js" */
 
 /**
+ * The name of a scene for a screen reader.
+ * @param {Pick<PageScene, "flat">} scene
+ * @param {string} alt
+ */
+export const spoken = ({flat}, alt) =>
+  alt + (flat === null ? " Arrow keys turn the view, Home resets it." : "");
+
+/**
  * @param {Pick<PageScene, "flat">} scene
  * @param {string} alt
  */
@@ -13,7 +21,7 @@ export const sceneCanvas = (scene, alt) =>
     class: `rk-scene${scene.flat === null ? "" : " rk-flat"}`,
     role: "img",
     tabindex: 0,
-    "aria-label": alt + (scene.flat === null ? " Arrow keys turn the view, Home resets it." : ""),
+    "aria-label": spoken(scene, alt),
   });
 
 /** @type {Object<string, [number, number]>} */

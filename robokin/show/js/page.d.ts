@@ -4,7 +4,8 @@
 /** T with these of its optional keys there. */
 export type With<T, K extends keyof T> = T & Required<Pick<T, K>>;
 
-export type PageExplorer = JointPage | LeversPage | TargetPage | MotionPage | PlanPage | TourPage;
+export type PageExplorer =
+  JointPage | LeversPage | TargetPage | MotionPage | RotationPage | PlanPage | TourPage;
 
 export type Scale = [number, number, number, number];
 
@@ -366,6 +367,26 @@ export interface MotionPage {
   panels: string[];
   samples: number;
   jumps: JumpRules;
+}
+
+export interface RotationPage {
+  title: string;
+  summary: string;
+  alt: string;
+  meant: string;
+  unit: PageUnit;
+  scene: PageScene;
+  controls: Control[];
+  words: Record<string, string>;
+  code: string;
+  kind: "rotation";
+  axis: number[];
+  across: number[];
+  length: number;
+  angles: number[];
+  rows: string[];
+  heads: string[];
+  decimals: number;
 }
 
 export interface LivePage {
