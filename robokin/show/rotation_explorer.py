@@ -73,7 +73,7 @@ def rotation_explorer(angle: float, axis: ArrayLike, v: ArrayLike) -> Explorer:
         raise ValueError(f"v: wanted {wanted}, got {told(tilt / deg, 1)}°")
     name, size = length_unit(length)
     decimals = 1 if size == mm else 3
-    q, left, whole = _products(turn, n, way / size)
+    left, whole = _products(turn, n, way / size)
     alt = SEEN.format(
         length=told(length / size, decimals),
         unit=name,
@@ -121,11 +121,11 @@ def _across(n: Floats, v: Floats) -> Floats:
     return found
 
 
-def _products(angle: float, n: Floats, v: Floats) -> tuple[Floats, Floats, Floats]:
-    """q, q v and q v q*, each (4,)."""
-    q = np.array([np.cos(angle / 2), *(np.sin(angle / 2) * n)])
-    left = hamilton(q, [0.0, *v])
-    return q, np.array(left), np.array(hamilton(left, q * [1, -1, -1, -1]))
+def _products(angle: float, n: Floats, v: Floats) -> tuple[Floats, Floats]:
+    """The products q v and q v q*, each (4,)."""
+    w, (x, y, z) = np.cos(angle / 2), np.sin(angle / 2) * n
+    left = hamilton((w, x, y, z), (0.0, *v))
+    return np.array(left), np.array(hamilton(left, (w, -x, -y, -z)))
 
 
 def _scene(n: Floats, across: Floats, length: float) -> PageScene:
