@@ -183,7 +183,7 @@ def turns(look: Floats) -> tuple[tuple[str, Floats, str], ...]:
     """The mistakes in which a wrong rotation was applied to z."""
     level = np.hypot(*look[:2])
     return (
-        ("not rotated", Z, "It still points up, like the z axis of the base."),
+        ("not rotated", Z, "It is still the z axis of the base."),
         ("straight down", -Z, "It points straight down."),
         (
             "to the opposite side",
