@@ -75,7 +75,7 @@ def test_test_in_the_last_hint_for_slerp_catches_every_mistake():
     hint = one_line(exercise.hints[2])
     more = "and pairs a rotation of 30° and of 175° apart, as in hint 2, and (a, a), and (a, -a)"
     assert more in hint
-    shares = [float(each) for each in re.search(r"for s in \((.*?)\)", hint)[1].split(",")]
+    shares = [float(each) for each in re.search(r"[Ff]or s in \((.*?)\)", hint)[1].split(",")]
     rights = [exercise.program(text) for _, text in exercise.rights]
     wrongs = [(name, exercise.program(text)) for name, _, text in exercise.wrongs]
 

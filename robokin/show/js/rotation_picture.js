@@ -78,7 +78,7 @@ export const onCircle = ({foot, side, quarter}, angle, share = 1) =>
 
 /**
  * Draws the circle, its radii to v, to q v q* and halfway between, the two halves of the angle, and
- * the line along the axis from the circle to q v; returns pixels on the circle and the radii.
+ * the line along the axis from the circle to q v; returns pixels on these lines.
  * @param {Context} g
  * @param {Camera} cam
  * @param {Products} now
@@ -92,18 +92,19 @@ function drawCircle(g, {to}, now) {
       to(onCircle(now, turn, share(turn))),
     );
   };
+  /** Five places from p to q. @type {(p: Point, q: Point) => Pixel[]} */
+  const line = (p, q) => [0, 1, 2, 3, 4].map(k => to(plus(p, plus(q, p, -1), k / 4)));
   const circle = arc(0, 2 * Math.PI, () => 1),
-    radii = [0, angle / 2, angle].map(turn =>
-      [0, 0.25, 0.5, 0.75, 1].map(share => to(onCircle(now, turn, share))),
-    );
+    radii = [0, angle / 2, angle].map(turn => line(foot, onCircle(now, turn))),
+    drop = line(onCircle(now, angle / 2), left.slice(1));
   stroke(g, circle, colors.rim, 1.2);
   for (const radius of radii) stroke(g, radius, colors.rim, 1, [2, 3]);
-  stroke(g, [onCircle(now, angle / 2), left.slice(1)].map(to), colors.near, 1.6, [2, 3]);
+  stroke(g, drop, colors.near, 1.6, [2, 3]);
   /** A spiral, so that a second turn is seen. @param {number} turn */
   const spiral = turn => 0.4 + turn / 60;
   stroke(g, arc(0, angle / 2, spiral), colors.near, 3);
   stroke(g, arc(angle / 2, angle, spiral), colors.accent, 3);
-  return [...circle, ...radii.flat()];
+  return [...circle, ...radii.flat(), ...drop];
 }
 
 /**
