@@ -117,12 +117,12 @@ def test_camera_can_look_at_the_part_for_every_student():
         wrong = {
             "looks away": Transform(columns(-z), eye),
             "upside down": Transform(columns(z, -1), eye),
-            "the inverse turn": Transform(turns[0].inverse(), eye),
-            "the part's place for the camera's": Transform(turns[0], part),
+            "the inverse rotation": Transform(turns[0].inverse(), eye),
+            "the camera is at the part": Transform(turns[0], part),
             "mm for m": Transform(turns[0], 1000 * eye),
             "seen from the base": Transform(columns(part / np.linalg.norm(part)), eye),
-            "the base, seen from the camera": Transform(turns[0], eye).inverse(),
-            "not turned": Transform(Quaternion.identity(), eye),
+            "the inverse pose": Transform(turns[0], eye).inverse(),
+            "not rotated": Transform(Quaternion.identity(), eye),
             "a quarter turn off": Transform(swung(yaw, rise - np.pi / 2), eye),
             "looks up": Transform(swung(yaw - np.pi / 2, -rise - np.pi / 2), eye),
         }
@@ -207,7 +207,7 @@ def test_different_axes_are_reported_with_different_numbers():
         return solved(table, q, part) @ np.diag([1, 1 + 1e-5, 1, 1])
 
     told = check("frames_and_quaternions.1", little_off).case
-    axis, is_axis = re.search(r"axis should be \((.*)\), and is \((.*)\)", told).groups()
+    axis, is_axis = re.search(r"axis should be \((.*)\), but is \((.*)\)", told).groups()
     assert axis != is_axis
 
 

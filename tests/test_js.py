@@ -180,6 +180,7 @@ KEYS = {  # for each kind of page: a key that only this kind has, and a script t
     "elbow": ("elbows: string[];", "elbow_explorer.js"),
     "target": ("turning: number[];", "target_explorer.js"),
     "motion": ("samples: number;", "blended.js"),
+    "rotation": ("across: number[];", "rotation_explorer.js"),
     "plan": ("forbidden: number;", "plan_explorer.js"),
     "tour": ("spare: number[][];", "tour_explorer.js"),
     "singularity": ("beside: number[];", "singularity_explorer.js"),

@@ -23,6 +23,7 @@ from robokin.show import (
     motion_explorer,
     motor_explorer,
     plan_explorer,
+    rotation_explorer,
     target_explorer,
     tour_explorer,
 )
@@ -54,6 +55,7 @@ VIEWS = EXPLORERS | {
     "motor": motor_explorer,
     "plan": lambda: plan_explorer(test_live.ARM, test_live.START, (1.9, 0.3), (1.2, 1.3)),
     "tour": lambda: tour_explorer(test_tour_explorer.CIRCLE),
+    "rotation": lambda: rotation_explorer(1.2, (0.6, 0, 0.8), (0.1, 0, 0)),
     "singularity": test_singularity_explorer.view,
     "question": question,
 }

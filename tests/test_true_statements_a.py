@@ -90,7 +90,7 @@ def options(name):
 
 def test_transposing_inverts_only_the_rotation():
     wrong = find("frames_and_quaternions.1", "exercises").text.wrong()
-    (mistake,) = [each for each in wrong if each.name == "transposed for inverse"]
+    (mistake,) = [each for each in wrong if each.name == "transposed instead of inverted"]
     assert "Transposing inverts the rotation R alone." in mistake.says
     pose = Transform(
         Quaternion.from_angle_axis(0.7, (1 / 3, 2 / 3, 2 / 3)), (0.1, 0.2, 0.3)
@@ -100,7 +100,7 @@ def test_transposing_inverts_only_the_rotation():
 
 
 def test_trace_formula_loses_digits_near_half_a_turn():
-    before = "opening-setup", "elementary", "product-code", "turning-code"
+    before = "elementary", "product-code", "turning-code"
     (value,) = tries("01", "to-matrix-code", "oblique")
     g, said = run("01", *before, "to-matrix-code", name="oblique", value=value)
     _, stored = run("01", *before, "to-matrix-code")

@@ -84,11 +84,11 @@ def find_exercises(lab):
 
 
 def test_no_3_by_3_matrix_moves_the_origin_and_the_rotation_fixes_only_the_z_axis():
-    assert "no 3 × 3 matrix shifts: each sends 0 to 0" in flat("01", "matrices")
+    assert "No 3 × 3 matrix can shift, because every one maps 0 to 0." in flat("01", "matrices")
     rng = np.random.default_rng(1)
     assert not (rng.normal(size=(50, 3, 3)) @ np.zeros(3)).any()
     _, options, _ = asked("frames_and_quaternions.p1")
-    assert "points of the z axis are the ones that the turn leaves" in options[3].second
+    assert "points of the z axis are the only ones that this rotation leaves" in options[3].second
     values, vectors = np.linalg.eig([[0, -1, 0], [1, 0, 0], [0, 0, 1]])
     assert np.sum(abs(values - 1) < 1e-12) == 1 and abs(vectors[2, abs(values - 1).argmin()]) == 1
 
@@ -103,7 +103,7 @@ def test_dh_lengths_a_and_d_are_along_the_stated_axes():
 
 
 def test_average_of_two_rotations_shrinks_by_the_stated_factor():
-    assert r"by the factor $\cos(\theta/2)$" in flat("01", "deeper")
+    assert r"by the factor $\cos(\theta/2)$" in flat("01", "average")
     rng = np.random.default_rng(3)
     for theta in (20, 90, 150):
         axis = rng.normal(size=3)

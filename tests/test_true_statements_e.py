@@ -63,7 +63,7 @@ def test_every_lab_marks_values_to_change_with_a_try_comment():
 
 
 def test_angles_can_be_interpolated_if_only_one_of_them_changes():
-    says = "where one alone changes, by less than half a turn, that is right."
+    says = "If only one of them changes, by less than half a turn, that is right."
     assert says in written("frames_and_quaternions")
     rng = np.random.default_rng(1)
 
@@ -89,13 +89,17 @@ def test_angles_can_be_interpolated_if_only_one_of_them_changes():
 
 
 def test_statements_on_scalar_parts_speed_jumps_and_parallel_axes_are_true():
-    assert "a point not square to the axis gets a scalar part" in flat("01", "two-signs")
+    told = (
+        "At φ = 90°. Otherwise $q\\,v$ is shorter along the axis, and the rest is in the real part."
+    )
+    assert told in flat("01", "turning-why")
     u, q = np.array([1, 2, 2]) / 3, 0.4
     for point in ([2.0, -1, 0], [0.3, 1, 2]):
         length = np.linalg.norm(point)
         way = Quaternion([0, *(np.array(point) / length)])
-        scalar = (Quaternion([np.cos(q), *(np.sin(q) * u)]) @ way).wxyz[0] * length
-        assert (abs(scalar) < 1e-12) == (abs(u @ point) < 1e-12)
+        real, *vector = (Quaternion([np.cos(q), *(np.sin(q) * u)]) @ way).wxyz * length
+        assert (abs(real) < 1e-12) == (abs(u @ point) < 1e-12)
+        assert real**2 + (u @ vector) ** 2 == pytest.approx((u @ point) ** 2)
     assert "Each speed but joint 4's jumps" in flat("01", "line-look")
     assert "q4 0%" in shown("01", "line-code") and "q5 0%" not in shown("01", "line-code")
     _, options, _ = asked("frames_and_quaternions.p4")
@@ -108,6 +112,61 @@ def test_statements_on_scalar_parts_speed_jumps_and_parallel_axes_are_true():
             W = (more - frames[-1]) @ frames[-1].T / 1e-6
             turns.append([W[2, 1], W[0, 2], W[1, 0]])
         assert np.linalg.norm(np.cross(*turns)) < 1e-5
+
+
+def hamilton(a, b):
+    """The product of two quaternions, from Hamilton's table of i, j and k."""
+    table = [
+        [(0, 1), (1, 1), (2, 1), (3, 1)],
+        [(1, 1), (0, -1), (3, 1), (2, -1)],
+        [(2, 1), (3, -1), (0, -1), (1, 1)],
+        [(3, 1), (2, 1), (1, -1), (0, -1)],
+    ]
+    found = np.zeros(4)
+    for x, row in zip(a, table, strict=True):
+        for y, (unit, sign) in zip(b, row, strict=True):
+            found[unit] += sign * x * y
+    return found
+
+
+def test_each_step_to_rodrigues_formula_is_true():
+    words = flat("01", "turning-why")
+    rng = np.random.default_rng(6)
+    assert r"$q\,v_\perp = c\,v_\perp + s\,n \times v_\perp$: no real part" in words
+    assert r"$v_\perp n = -n\,v_\perp$, we have $v_\perp q^* = q\,v_\perp$" in words
+    assert r"$q\,v_\parallel = c\,v_\parallel - s\,(n \cdot v)$ has a real part" in words
+    assert "1. By θ/2." in words and "3. At 720°. At 360° $q$ is −1." in words
+    for theta in [*rng.uniform(0, 4 * np.pi, 20), 2 * np.pi, 4 * np.pi]:
+        n, v = rng.normal(size=(2, 3))
+        n /= np.linalg.norm(n)
+        c, s = np.cos(theta / 2), np.sin(theta / 2)
+        q, back = np.array([c, *(s * n)]), np.array([c, *(-s * n)])
+        parallel, across = (n @ v) * n, v - (n @ v) * n
+        half = [0, *(about(n, theta / 2) @ across)]
+        assert hamilton(q, [0, *across]) == pytest.approx(half)
+        assert half[1:] == pytest.approx(c * across + s * np.cross(n, across))
+        assert hamilton([0, *across], back) == pytest.approx(half)
+        assert hamilton(q, [0, *parallel]) == pytest.approx([-s * (n @ v), *(c * parallel)])
+        whole = [0, *(about(n, theta) @ v)]
+        assert hamilton(hamilton(q, [0, *v]), back) == pytest.approx(whole, abs=1e-12)
+    assert q == pytest.approx([1, 0, 0, 0], abs=1e-12)  # after two turns, but not after one
+    assert np.cos(360 * deg / 2) == -1
+
+
+def test_the_pointers_agree_three_times_and_nlerp_is_faster_in_the_middle():
+    says = "They agree at the start, halfway and at the end. In the middle *nlerp* is faster;"
+    assert says in flat("01", "slerp-look")
+    s = np.linspace(0, 1, 121)
+    for goal in (60, 90, 110, 140, 170):
+        end = about([0, 0, 1], goal * deg)
+        even = [apart(np.eye(3), about([0, 0, 1], share * goal * deg)) for share in s]
+        half = goal * deg / 2
+        chord = 2 * np.arctan2(s * np.sin(half), 1 - s + s * np.cos(half))
+        off = chord - even
+        assert apart(np.eye(3), end) == pytest.approx(chord[-1], abs=1e-6)
+        assert off[[0, 60, 120]] == pytest.approx([0, 0, 0], abs=1e-6)
+        assert (off[1:60] < 0).all() and (off[61:120] > 0).all()
+        assert np.gradient(chord, s)[60] > 1.02 * goal * deg
 
 
 def test_moving_the_tip_along_base_x_is_right_only_if_the_tool_points_that_way():

@@ -372,6 +372,10 @@ CALLS = {
             close_up=True,
         ),
     ),
+    "rotation_explorer": (
+        figures.rotation_explorer,
+        dict(angle=1.0, axis=(0.0, 0.0, 1.0), v=(0.1, 0.0, 0.2)),
+    ),
     "plan_explorer": (
         figures.plan_explorer,
         dict(arm=LEVERS, posture=FOLDED, target=POINT, obstacle=OBSTACLE),

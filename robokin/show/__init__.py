@@ -15,6 +15,7 @@ try:
     from .plan_explorer import plan_explorer
     from .player import Player, animate
     from .plots import figure, plot_frames, plot_postures
+    from .rotation_explorer import rotation_explorer
     from .singularity_explorer import singularity_explorer
     from .sketch import Sketch
     from .tour_explorer import tour_explorer
@@ -42,6 +43,7 @@ __all__ = [
     "plot_joints",
     "plot_postures",
     "plot_velocity_ellipsoid",
+    "rotation_explorer",
     "singularity_explorer",
     "target_explorer",
     "tour_explorer",

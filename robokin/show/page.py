@@ -374,6 +374,23 @@ class SingularityPage(ArmPage):
     speed: float
 
 
+class RotationPage(ExplorerPage):
+    """The data of the rotation explorer: two perpendicular unit vectors (the axis, and the one
+    across it towards v), the length of v in metres, the opening angles in radians (of the rotation,
+    and between v and the axis), the names of the rows and the headings of the table, and the number
+    of decimals of lengths.
+    """
+
+    kind: Literal["rotation"]
+    axis: list[float]
+    across: list[float]
+    length: float
+    angles: list[float]
+    rows: list[str]
+    heads: list[str]
+    decimals: int
+
+
 class LivePage(ExplorerPage):
     """The additional data of `live.Live`: the first question of an explorer, and its answer."""
 
@@ -410,6 +427,7 @@ PageExplorer: TypeAlias = (
     | ElbowPage
     | TargetPage
     | MotionPage
+    | RotationPage
     | SingularityPage
     | PlanPage
     | TourPage

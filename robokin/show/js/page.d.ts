@@ -10,6 +10,7 @@ export type PageExplorer =
   | ElbowPage
   | TargetPage
   | MotionPage
+  | RotationPage
   | SingularityPage
   | PlanPage
   | TourPage;
@@ -421,6 +422,26 @@ export interface SingularityPage {
   beside: number[];
   row: number;
   speed: number;
+}
+
+export interface RotationPage {
+  title: string;
+  summary: string;
+  alt: string;
+  meant: string;
+  unit: PageUnit;
+  scene: PageScene;
+  controls: Control[];
+  words: Record<string, string>;
+  code: string;
+  kind: "rotation";
+  axis: number[];
+  across: number[];
+  length: number;
+  angles: number[];
+  rows: string[];
+  heads: string[];
+  decimals: number;
 }
 
 export interface LivePage {
