@@ -46,6 +46,7 @@ EXPLORERS = {
 }
 VIEWS = EXPLORERS | {
     "player": player,
+    "zone": lambda: target_explorer(SCARA, zone=True),
     "levers": lambda: target_explorer(three_lever(0.3)),
     "motor": motor_explorer,
     "plan": lambda: plan_explorer(test_live.ARM, test_live.START, (1.9, 0.3), (1.2, 1.3)),

@@ -356,7 +356,7 @@ CALLS = {
         figures.joint_explorer,
         dict(arm=IRB140, q=SIX, singular=True, wrist=True),
     ),
-    "target_explorer": (figures.target_explorer, dict(arm=SCARA)),
+    "target_explorer": (figures.target_explorer, dict(arm=SCARA, zone=True)),
     "tour_explorer": (figures.tour_explorer, dict(task=TASK)),
     "motion_explorer": (
         figures.motion_explorer,

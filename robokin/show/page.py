@@ -301,7 +301,8 @@ class LeversPage(ArmPage):
 class TargetPage(ArmPage):
     """The data of the target explorer: the target, its rotations in radians, the previous posture
     q, the names of branches, the headings of the table, and the joints whose angles the column
-    "travel" adds up. `task` belongs to an exercise.
+    "travel" adds up. `watched`: the joints of which it says how far the one nearest to a limit is
+    from it. `task` belongs to an exercise.
     """
 
     kind: Literal["target"]
@@ -311,6 +312,7 @@ class TargetPage(ArmPage):
     branches: list[str]
     heads: list[str]
     turning: list[int]
+    watched: list[int]
     task: BranchTask | None
 
 
