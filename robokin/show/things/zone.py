@@ -68,7 +68,7 @@ class Zone(Thing):
             near, far = elbow * low, elbow * high
             # `stop` is the upper limit of joint 1 if the arm bends to the left, else the lower one
             start, stop = np.clip(arm.limits[0], None, arm.limits[0, 0] + TURN)[::elbow]
-            turned = None if abs(stop - start) == TURN else 0
+            turned = None if abs(stop - start) >= TURN - 1e-9 else 0
             joints = [1 if low else None, turned, 1 if high < np.pi else None, turned]
             corners = np.array([(start, near), (stop, near), (stop, far), (start, far)])
             points = [_between(arm, *corners[[k, (k + 1) % 4]]) for k in range(4)]
