@@ -25,6 +25,7 @@ import sys
 import time
 import traceback
 import types
+from collections.abc import Sequence
 from pathlib import Path
 
 ROOT = Path(__file__).resolve().parent.parent
@@ -51,15 +52,9 @@ class Cell:
     def __init__(self, source: str) -> None:
         self.source = source
         tree = ast.parse(source)
-        self.reads: set[str] = set()  # names read before the cell sets them
-        self.writes: set[str] = set()
+        self.reads = _reads(tree.body, set())  # names read before the cell sets them
+        self.writes = _globals(compile(tree, "cell", "exec"))[1]
         self.changed: set[str] = set()  # in place: values[3] = 1, names.append("C")
-        sure: set[str] = set()
-        for statement in tree.body:
-            reads, writes = _globals(compile(ast.Module([statement], []), "cell", "exec"))
-            self.reads |= reads - sure
-            self.writes |= writes
-            sure |= writes if isinstance(statement, SETS) else set()  # others do not always run
         for node in ast.walk(tree):
             if isinstance(node, ast.Attribute) or (
                 isinstance(node, ast.Subscript) and isinstance(node.ctx, ast.Store)
@@ -265,6 +260,21 @@ def _forked(lab: Run, k: int, source: str):
         answer = pipe.read()
     os.waitpid(child, 0)
     return [tuple(x) for x in found] if isinstance(found := json.loads(answer), list) else found
+
+
+def _reads(body: Sequence[ast.stmt], sure: set[str]) -> set[str]:
+    """The global names that statements read before they set them; those in `sure` are set."""
+    found: set[str] = set()
+    for statement in body:
+        if isinstance(statement, ast.For):  # it sets its variables before its body reads them
+            own = {node.id for node in ast.walk(statement.target) if isinstance(node, ast.Name)}
+            found |= _globals(compile(ast.Expression(statement.iter), "cell", "eval"))[0] - sure
+            found |= _reads([*statement.body, *statement.orelse], sure | own)
+            continue
+        reads, writes = _globals(compile(ast.Module([statement], []), "cell", "exec"))
+        found |= reads - sure
+        sure = sure | writes if isinstance(statement, SETS) else sure  # others do not always run
+    return found
 
 
 def _globals(code: types.CodeType) -> tuple[set[str], set[str]]:
