@@ -340,7 +340,7 @@ def test_no_circle_larger_than_the_printed_one_fits():
     radius = number(r"of the circle in front at most (\S+) mm", said) * mm
     assert _fits(SCARA, radius - 0.1 * mm) and not _fits(SCARA, radius + 0.1 * mm)
     text = sources("04")["limits-hole"]
-    assert _fits(SCARA, number(r"Up to (\d+) mm the arm gets around", text) * mm)
+    assert _fits(SCARA, number(r"Up to (\d+) mm the arm gets all the way around", text) * mm)
     assert not _fits(SCARA, number(r"From (\d+) mm on, joint 2 passes", text) * mm)
 
 
