@@ -50,6 +50,7 @@ EXPLORERS = {
 VIEWS = EXPLORERS | {
     "corner": lambda: motion_explorer(IRB140, START, VIA, GOAL, close_up=True),
     "player": player,
+    "zone": lambda: target_explorer(SCARA, zone=True),
     "levers": lambda: target_explorer(three_lever(0.3)),
     "elbow": lambda: elbow_explorer(IRB140),
     "motor": motor_explorer,

@@ -30,7 +30,6 @@ from robokin import (
     mm,
     nearest,
     quintic,
-    scara_arm,
     trapezoidal,
     within,
 )
@@ -392,31 +391,18 @@ def _fits(arm, radius):
     return within(arm, arm.ik(ScaraPose(place))).all(axis=-1).all(axis=0).any()
 
 
-STOPS = ["[140, 150]", "[140, 170]", "[100, 170]", "[70, 170]", "[178, 179]", "[200, 175]"]
-
-
-@pytest.mark.parametrize("stops", [*STOPS, *tries("04", "zone-code", "stops")])
-def test_no_circle_larger_than_the_stated_one_fits(stops):
-    values = eval(stops)
-    hole = np.sqrt(200**2 + 250**2 + 2 * 200 * 250 * np.cos(values[1] * deg)) * mm
-    g = {"np": np, "mm": mm, "deg": deg, "stops": values, "hole": hole, "fine": 2.0}
-    g |= {"L1": 200 * mm, "L2": 250 * mm, "ways": np.zeros((1, 1, 2), bool)}
-    with contextlib.redirect_stdout(io.StringIO()) as said:
-        exec(sources("04")["zone-formula"], g)
-    limits = SCARA.limits.copy()
-    limits[:2] = np.array(values)[:, None] * [-deg, deg]
-    arm = scara_arm("zone", 220.2 * mm, 200 * mm, 250 * mm, limits)
-    last = said.getvalue().splitlines()[-1]
-    if "none" in last:
-        assert not _fits(arm, 0.0)
-    else:
-        radius = number(r"radius at most (\S+) mm", last) * mm
-        assert _fits(arm, radius - 0.1 * mm) and not _fits(arm, radius + 0.1 * mm)
+def test_no_circle_larger_than_the_stated_one_fits():
+    _, said = run("04", "circles", "limits-code")
+    radius = number(r"of the circle in front at most (\S+) mm", said) * mm
+    assert _fits(SCARA, radius - 0.1 * mm) and not _fits(SCARA, radius + 0.1 * mm)
+    text = sources("04")["limits-hole"]
+    assert _fits(SCARA, number(r"Up to (\d+) mm the arm gets all the way around", text) * mm)
+    assert not _fits(SCARA, number(r"From (\d+) mm on, joint 2 passes", text) * mm)
 
 
 def test_omega_is_not_used_in_lab_04():
     assert not any("omega" in text or "ω" in text for text in sources("04").values())
-    assert r"\beta = 2\pi t/T" in sources("04")["target-law"]
+    assert r"\beta = 2\pi t/T" in sources("04")["follow"]
 
 
 def test_elbow_plus_one_bends_to_the_left_in_both_labs():
@@ -440,7 +426,7 @@ def test_suggested_positions_are_in_millimetres(cell, name):
 
 def test_no_angle_is_printed_as_minus_zero():
     for value in tries("04", "target-code", "whole_turns"):
-        _, said = run("04", "setup", "target-code", name="whole_turns", value=value)
+        _, said = run("04", "target-code", name="whole_turns", value=value)
         assert not re.search(r"-0\.0°", said)
 
 

@@ -215,10 +215,11 @@ def test_speeds_of_joint_1_and_the_change_in_speed_at_via_are_as_stated():
 # --- Labs 04 to 06 --------------------------------------------------------------------------------
 
 
-def test_notch_begins_and_tool_is_behind_joint_1_where_stated():
-    hole, notch = numbers(
-        r"between (\d+) mm and 450 .* from (\d+) mm on", shown("04", "zone-figure")
-    )
+def test_hole_notch_and_areas_of_the_zone_are_as_stated():
+    said = shown("04", "zone-grid")
+    (hole,) = numbers(r"nearest point that is reached: +(\S+) mm", said)
+    (notch,) = numbers(r"farthest one behind the column: (\d+) mm", said)
+    assert f"then the tool is {hole:.0f} mm from the axis of joint 1" in flat("04", "able")
     assert "a ring with a hole, and with a notch behind" in flat("04", "short")
     limits = np.array([[-140, 140], [-150, 150], [-400, 400], [0, 1]]) * [[deg], [deg], [deg], [1]]
     arm = scara_arm("zone", 220.2 * mm, 200 * mm, 250 * mm, limits)
@@ -227,9 +228,21 @@ def test_notch_begins_and_tool_is_behind_joint_1_where_stated():
     inside = x[within(arm, rows).all(axis=-1).any(axis=-1)] / mm
     assert [np.floor(inside.min()), np.ceil(inside.max())] == pytest.approx([hole, notch], abs=1)
     assert len(inside) == inside.max() - inside.min() + 1, "wanted no gap between the two"
-    ((_, says),) = mistakes("scara_kinematics", "atan for atan2 in the triangle")
-    (angle,) = numbers(r"Beyond q2 = (\d+)° the tool is behind joint 1", says)
-    assert round(np.arccos(-200 / 250) / deg) == angle
+    one, either = numbers(r"elbow \+1: +(\d+) cm²\n.*either elbow: (\d+) cm²", said)
+    assert "reach only a quarter more than one, because they share most" in flat("04", "zone-look")
+    assert either / one == pytest.approx(1.25, abs=0.01) and 2 * one - either > either / 2
+
+
+def test_joint_3_ends_where_stated_after_a_turn_to_either_side():
+    start, left, right, over = numbers(
+        r"starts at (\S+)°, so it ends at (\S+)° or at (\S+)°, and that is (\S+)° past",
+        flat("04", "follow-answer"),
+    )
+    q2 = np.arccos((270**2 - 200**2 - 250**2) / (2 * 200 * 250))  # at the start, 270 mm away
+    q1 = -np.arctan2(250 * np.sin(q2), 200 + 250 * np.cos(q2))
+    assert round(-(q1 + q2) / deg) == start  # the tool's angle is 0, and on a lap it turns by 360°
+    assert [left, right] == [start + 360, start - 360] and right == -400 - over
+    assert "one turn to the left, and none to the right" in flat("04", "follow-answer")
 
 
 def test_both_motions_to_the_same_orientation_have_the_stated_greatest_speeds():

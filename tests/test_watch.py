@@ -96,6 +96,7 @@ EXPLORERS = {
     "joints": lambda: joint_explorer(IRB140),
     "target of eight rows": lambda: target_explorer(IRB140),
     "target of two rows": lambda: target_explorer(WITH_ROWS),
+    "zone of a SCARA": lambda: target_explorer(WITH_ROWS, zone=True),
     "three levers": lambda: target_explorer(three_lever((0.3, 0.2, 0.4))),
     "elbow": lambda: elbow_explorer(IRB140),
     "motor": motor_explorer,

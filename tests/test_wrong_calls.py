@@ -357,7 +357,7 @@ CALLS = {
         dict(arm=IRB140, q=SIX, singular=True, wrist=True),
     ),
     "elbow_explorer": (figures.elbow_explorer, dict(arm=IRB140)),
-    "target_explorer": (figures.target_explorer, dict(arm=SCARA)),
+    "target_explorer": (figures.target_explorer, dict(arm=SCARA, zone=True)),
     "tour_explorer": (figures.tour_explorer, dict(task=TASK)),
     "motion_explorer": (
         figures.motion_explorer,

@@ -19,7 +19,7 @@ from .numbers import tidy
 from .output import Output
 from .page import ArmPage, Control, PagePose, PageScene, PageUnit
 from .scene import Scene
-from .things import Target
+from .things import Target, Thing, Zone
 from .twin import KINDS, arm_data
 
 Pose: TypeAlias = Transform | ScaraPose
@@ -43,6 +43,7 @@ WORDS: Mapping[str, str] = {
     "oneUsable": "1 of {all} branches is usable. {why}",
     "someUsable": "{count} of {all} branches are usable. {why}",
     "noneUsable": "No branch is usable. {why}",
+    "room": "Joint {joint} is {room}° from its limit of {limit}.",
     "ellipsoid": "ellipsoid",
     "off": "off",
     "free": "tool velocities, tool free to turn",
@@ -138,12 +139,14 @@ def arm_page(
     posed: Mapping[str, Transform] | None = None,
     *,
     near: Floats | None = None,
+    things: Sequence[Thing] = (),
     meant: str,
     code: str,
 ) -> ArmPage:
     """Return the page data that all explorers of an arm share. The page opens with the postures
-    `opening` (k, n), and its scene shows the targets `posed`. The picture also has room for the
-    postures `near` (k, n); by default, these are postures in which one joint has moved a little.
+    `opening` (k, n), and its scene shows the targets `posed` and the given things. The picture also
+    has room for the postures `near` (k, n); by default, these are postures in which one joint has
+    moved a little.
     """
     name, size = length_unit(extent(arm))
     return {
@@ -153,7 +156,7 @@ def arm_page(
         "arm": arm_data(arm),
         "unit": {"name": name, "size": size, "code": name},
         "units": units(arm),
-        "scene": _scene(arm, posed or {}, opening, near),
+        "scene": _scene(arm, posed or {}, opening, near, things),
         "controls": controls,
         "words": dict(WORDS),
         "meant": meant,
@@ -162,7 +165,11 @@ def arm_page(
 
 
 def _scene(
-    arm: Arm, posed: Mapping[str, Transform], opening: Floats, near: Floats | None
+    arm: Arm,
+    posed: Mapping[str, Transform],
+    opening: Floats,
+    near: Floats | None,
+    more: Sequence[Thing],
 ) -> PageScene:
     """Return a scene that shows the opening postures (k, n) and the postures near them, above the
     floor. The page zooms out when anything leaves the picture.
@@ -174,7 +181,7 @@ def _scene(
         near = (opening[:, None] + step).reshape(-1, len(turn))
     postures = np.concatenate([opening, near])
     above = arm_points(arm, postures)[..., 2].min(axis=-1) > -0.01 * extent(arm)
-    things = [Target(pose, name) for name, pose in posed.items()]
+    things = [*(Target(pose, name) for name, pose in posed.items()), *more]
     scene = scene_data([arm], [postures[above][None]], things, extent(arm), grows=True)
     if not flat:
         scene["view"] = list(VIEW)
@@ -245,10 +252,13 @@ def picture(
     targets: Mapping[str, Transform] | None = None,
     frames: Sequence[Transform] = (),
     points: Mapping[str, Floats] | None = None,
+    zone: Zone | None = None,
 ) -> plots.Figure:
-    """Draw one posture boldly and the others faintly."""
+    """Draw one posture boldly and the others faintly; with a zone, from above."""
     fig = plots.figure(alt, width=6.4, height=4.5)
-    scene = Scene(fig.add_axes((0, 0, 1, 1)), size=extent(arm))
+    scene = Scene(fig.add_axes((0, 0, 1, 1)), size=extent(arm), flat=zone is not None)
+    if zone:
+        zone.draw(scene, None)
     scene.base()
     for other in others:
         scene.arm(arm, other, "between")

@@ -18,7 +18,7 @@ from ..arms.scara import ScaraPose
 from ..quaternion import Quaternion
 from ..transform import Transform
 from ..units import deg, length_unit, mm
-from .camera import common_plane, extent
+from .camera import STRAIGHT, common_plane, extent
 from .checks import yes
 from .explorer import (
     TAKE,
@@ -42,6 +42,7 @@ from .findings import flags
 from .levers_explorer import levers_explorer
 from .numbers import rounded
 from .page import FactRow, JointPage, TargetPage
+from .things import Zone
 
 __all__ = ["Explorer", "joint_explorer", "target_explorer"]
 
@@ -49,6 +50,11 @@ MEANT = (
     "Distance from singularity: the smallest singular value of the Jacobian, with lengths divided "
     "by the arm's reach, so that it has no unit. It says how slowly the tool moves in its worst "
     "direction; it is 0 at a singularity."
+)
+
+AREAS = (
+    "Where the grey areas overlap, both elbows reach the target. On a coloured line, the joint of "
+    "that colour is at its limit. "
 )
 
 
@@ -125,7 +131,7 @@ def joint_explorer(
     return Explorer(data, still)
 
 
-def target_explorer(arm: ClosedFormArm | ThreeLeverArm) -> "Explorer":
+def target_explorer(arm: ClosedFormArm | ThreeLeverArm, *, zone: bool = False) -> "Explorer":
     """Show a target that the reader can drag with rings and arrows, and every branch of `ik`. Each
     branch has a row in a table, and the chosen branch is drawn boldly. The reader chooses a branch
     by clicking its row or from a menu. The menu can also select the usable branch nearest to the
@@ -135,8 +141,14 @@ def target_explorer(arm: ClosedFormArm | ThreeLeverArm) -> "Explorer":
     target of a SCARA is a position and the tool's angle, and that of a positioning arm is a
     position. For three levers, the explorer shows the position, the free angle alpha, the curve of
     the cost of moving there from the previous posture, and, if the levers are unequal, their
-    lengths. Raises TypeError if the arm has neither an inverse nor a family of postures.
+    lengths.
+
+    With `zone`, the explorer shows a SCARA from above, with the zone in which the tool can be
+    (`things.Zone`), and says how far joint 1 or 2, whichever is nearer, is from its limit. Raises
+    TypeError if the arm has neither an inverse nor a family of postures, or if `zone` is true and
+    the arm is not a SCARA.
     """
+    around = Zone(arm) if yes(zone, "zone") else None  # type: ignore[arg-type]
     if isinstance(arm, ThreeLeverArm):
         return levers_explorer(arm)
     inverted(arm)
@@ -161,7 +173,10 @@ def target_explorer(arm: ClosedFormArm | ThreeLeverArm) -> "Explorer":
     usable_rows = WORDS["oneUsable" if count == 1 else "someUsable"].format(
         count=count, all=len(rows), why=explain(arm, target, row)
     )
+    watched = [0, 1] if around else []
     summary = f"{arm.name} and a target to be moved, at {values}. {usable_rows}"
+    if around and usable[row]:
+        summary += f" {_room(arm, rows[row], watched)}"
     shown = rows[np.isfinite(rows).all(axis=-1)]
     turning = np.flatnonzero(~arm.prismatic)
     whole = len(turning) == len(arm.links)
@@ -171,7 +186,11 @@ def target_explorer(arm: ClosedFormArm | ThreeLeverArm) -> "Explorer":
         summary,
         controls,
         shown,
-        meant=TAKE + (f"{TURNS} " if arm.target is Transform else "") + MEANT,
+        things=[around] if around else [],
+        meant=TAKE
+        + (AREAS if around else "")
+        + (f"{TURNS} " if arm.target is Transform else "")
+        + MEANT,
         code=f"{imports(arm)}\ntarget = {_target_code(arm, size)}\n"
         f"q = {code_name(arm)}.ik(target)[{{row}}]",
     )
@@ -191,11 +210,14 @@ def target_explorer(arm: ClosedFormArm | ThreeLeverArm) -> "Explorer":
             "travel, °" if whole else f"travel of {', '.join(f'q{j + 1}' for j in turning)}, °",
         ],
         "turning": turning.tolist(),
+        "watched": watched,
         "task": None,
     }
+    if around:
+        data["scene"]["view"] = list(STRAIGHT[2])
     others = [rows[k] for k in np.flatnonzero(np.isfinite(rows).all(axis=-1)) if k != row]
     posed = {"target": as_transform(target)} if arm.target is not np.ndarray else {}
-    still = picture(summary, arm, nearest(arm, rows[[row]], q), others, posed)
+    still = picture(summary, arm, nearest(arm, rows[[row]], q), others, posed, zone=around)
     return Explorer(data, still)
 
 
@@ -306,3 +328,11 @@ def _target_code(arm: Arm, size: float) -> str:
         turns = "{roll} * deg, {pitch} * deg, {yaw} * deg"
         return f"robokin.Transform(robokin.Quaternion.from_roll_pitch_yaw({turns}), {place})"
     return place
+
+
+def _room(arm: Arm, q: Floats, joints: list[int]) -> str:
+    """How far the joint that is nearest to a limit is from it, as a sentence."""
+    room = abs(arm.limits[joints] - q[joints, None]) / deg
+    k, side = np.unravel_index(room.argmin(), room.shape)
+    limit = f"{arm.limits[joints[k], side] / deg:g}°"
+    return WORDS["room"].format(joint=joints[k] + 1, room=number(room.min(), 1), limit=limit)

@@ -328,7 +328,8 @@ class ElbowPage(ArmPage):
 class TargetPage(ArmPage):
     """The data of the target explorer: the target, its rotations in radians, the previous posture
     q, the names of the branches, the headings of the table, and the joints whose angle changes are
-    added up in the column "travel". `task` belongs to an exercise.
+    added up in the column "travel". `watched` lists the joints for which the explorer says how far
+    the one nearest to a limit is from it. `task` belongs to an exercise.
     """
 
     kind: Literal["target"]
@@ -338,6 +339,7 @@ class TargetPage(ArmPage):
     branches: list[str]
     heads: list[str]
     turning: list[int]
+    watched: list[int]
     task: BranchTask | None
 
 

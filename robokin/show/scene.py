@@ -215,17 +215,15 @@ class Scene:
                 zorder=layers.POINTS,
             )
 
-    def faces(self, polygons: Sequence[Floats]) -> None:
+    def faces(self, polygons: Sequence[Floats], **style: Any) -> None:
         """Draw polygons (k, 3) behind the arms, the farthest first."""
+        style = {"facecolor": FOOT, "edgecolor": SOFT, "lw": 0.8, "zorder": layers.FACES, **style}
         (ca, ce), (sa, se) = np.cos(self.view), np.sin(self.view)
         for corners in sorted(
             polygons, key=lambda face: face.mean(axis=0) @ [ce * ca, ce * sa, se]
         ):
             self.corners.append(corners)
-            flat = self.project(corners)
-            self.ax.add_patch(
-                Polygon(flat, facecolor=FOOT, edgecolor=SOFT, lw=0.8, zorder=layers.FACES)
-            )
+            self.ax.add_patch(Polygon(self.project(corners), **style))
 
     def label(self, words: str, point: Floats, color: str = INK, size: float = 9.5) -> None:
         """Add text next to a point (3,); `place_labels` finds a free place for it."""

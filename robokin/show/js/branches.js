@@ -37,6 +37,20 @@ export const within = (arm, q) =>
   });
 
 /**
+ * Which of some joints is nearest to one of its limits, to which one (0 lower, 1 upper), and how far
+ * it is from it.
+ * @param {ArmData} arm
+ * @param {number[]} q
+ * @param {number[]} joints  at least one
+ */
+export const nearestLimit = (arm, q, joints) =>
+  joints
+    .flatMap(joint =>
+      arm.limits[joint].map((limit, side) => ({joint, side, room: Math.abs(limit - q[joint])})),
+    )
+    .reduce((least, one) => (one.room < least.room ? one : least));
+
+/**
  * For each revolute joint the value nearest to `near` that differs from q by whole turns.
  * @param {ArmData} arm
  * @param {number[]} q

@@ -20,7 +20,7 @@ export type Scale = [number, number, number, number];
 export type Inverse =
   ElbowInverse | WristInverse | ScaraInverse | TwoLinkInverse | ThreeLeverInverse | NoInverse;
 
-export type PageThing = PageFaces | PageMark | PageTarget;
+export type PageThing = PageFaces | PageZone | PageMark | PageTarget;
 
 export interface Packed {
   steps: (number | number[])[];
@@ -30,6 +30,18 @@ export interface Packed {
 export interface PageFaces {
   kind: "faces";
   corners: number[][][];
+}
+
+export interface ZoneSide {
+  joint: number | null;
+  dash: number[];
+  points: number[][];
+}
+
+export interface PageZone {
+  kind: "zone";
+  elbows: ZoneSide[][];
+  labels: [string, number[]][];
 }
 
 export interface PageReading {
@@ -374,6 +386,7 @@ export interface TargetPage {
   branches: string[];
   heads: string[];
   turning: number[];
+  watched: number[];
   task: BranchTask | null;
 }
 

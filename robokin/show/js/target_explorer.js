@@ -4,7 +4,7 @@
 import {distance_from_singularity} from "./dexterity.js";
 import {matrix, wrapped} from "./kinematics.js";
 import {ik, singularities} from "./geometries.js";
-import {explain, nearest, representative, within} from "./branches.js";
+import {explain, nearest, nearestLimit, representative, within} from "./branches.js";
 import {fill} from "./blanks.js";
 import {number} from "./canvas.js";
 import {copyButton} from "./copy.js";
@@ -17,9 +17,10 @@ import {frame} from "./target.js";
 import {targetHandles} from "./target_handles.js";
 import {degrees, inCode, radians, rotationOf} from "./turns.js";
 
-/** @import {ArmData, BranchTask, TargetPage, With} from "./page.js" */
+/** @import {ArmData, BranchTask, PageThing, TargetPage, With} from "./page.js" */
 /** @import {Point} from "./canvas.js" */
 /** @import {ClosedFormArm} from "./kinematics.js" */
+/** @import {Now} from "./recordings.js" */
 /** @import {Stage} from "./stage.js" */
 
 /** @typedef {TargetPage & {arm: ClosedFormArm}} TargetExplorer */
@@ -54,6 +55,7 @@ function targetExplorer(stage, data) {
   /** @type {State} */
   const state = {...structuredClone(home), q: [...data.q], wanted: -1, chosen: 0};
   if (arm.target === "Transform") state.rotation = rotationOf(state.turns);
+  if (data.watched.length) stage.space.classList.add("rk-close");
 
   /** @type {(k: number) => void} */
   const want = k => {
@@ -79,7 +81,7 @@ function targetExplorer(stage, data) {
 
   stage.run(() => {
     const found = foundAt(data, state),
-      {exists, usable, chosen} = found;
+      {exists, inside, usable, chosen} = found;
     state.chosen = chosen;
     if (exists[chosen]) state.q = found.rows[chosen];
     sliders.forEach((s, k) =>
@@ -89,17 +91,20 @@ function targetExplorer(stage, data) {
     rows.set(cells(data, found), exists[chosen] ? chosen : -1, exists);
     const {ellipsoid, speeds} = more.at(state.q),
       why = told(data.task, found.rows, exists);
-    stage.say(why + summary(arm, words, state, usable, chosen) + speeds);
-    markTarget(stage, state, words.target);
+    const room = usable[chosen] ? roomLeft(data, found.rows[chosen]) : "";
+    stage.say(why + summary(arm, words, state, usable, chosen) + room + speeds);
+    markTarget(stage, state, data);
     return [
       {
         name: arm.name,
         chain: arm.chain,
         q: state.q,
         faded: !exists[chosen],
+        past: exists[chosen] ? inside[chosen].flatMap((good, j) => (good ? [] : [j])) : [],
         ghosts: ghostsOf(found),
         axes: axes.on(),
         ellipsoid,
+        handles: stage.handles.place,
       },
     ];
   });
@@ -172,13 +177,26 @@ const cells = ({arm, words, units}, {rows, exists, inside, travel}) =>
   ]);
 
 /**
- * Puts the target into the scene as a frame or a point.
+ * Puts the target into the scene as a frame or a point, beside the things that do not move.
  * @param {Stage} stage
  * @param {State} state
- * @param {string} name
+ * @param {TargetExplorer} data
  */
-function markTarget({scene}, {rotation, place}, name) {
-  scene.things = [rotation ? frame(name, matrix(rotation, place)) : point(name, place)];
+function markTarget({scene}, {rotation, place}, {scene: {things}, words: {target}}) {
+  const mark = rotation ? frame(target, matrix(rotation, place)) : point(target, place);
+  scene.things = [.../** @type {Now<PageThing>[]} */ (things), mark];
+}
+
+/**
+ * How far the watched joint that is nearest to a limit is from it, as a sentence.
+ * @param {TargetExplorer} data
+ * @param {number[]} q
+ */
+function roomLeft({arm, words, watched}, q) {
+  if (!watched.length) return "";
+  const {joint, side, room} = nearestLimit(arm, q, watched),
+    limit = arm.limits_in_words[joint][side];
+  return ` ${fill(words.room, {joint: joint + 1, room: number(degrees(room), 1), limit})}`;
 }
 
 /**
