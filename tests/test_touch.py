@@ -20,6 +20,7 @@ from robokin.show import (
     joint_explorer,
     motion_explorer,
     motor_explorer,
+    movement_explorer,
     plan_explorer,
     target_explorer,
     tour_explorer,
@@ -46,7 +47,7 @@ EXPLORERS = {
 }
 VIEWS = EXPLORERS | {
     "player": player,
-    "levers": lambda: target_explorer(three_lever(0.3)),
+    "levers": lambda: movement_explorer(three_lever(0.3), [1.5, 1.5, 1.5], (0.5, 0.2)),
     "motor": motor_explorer,
     "plan": lambda: plan_explorer(test_live.ARM, test_live.START, (1.9, 0.3), (1.2, 1.3)),
     "tour": lambda: tour_explorer(test_tour_explorer.CIRCLE),
