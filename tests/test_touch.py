@@ -47,7 +47,7 @@ EXPLORERS = {
 }
 VIEWS = EXPLORERS | {
     "player": player,
-    "levers": lambda: movement_explorer(three_lever(0.3), [1.5, 1.5, 1.5], (0.5, 0.2)),
+    "levers": lambda: movement_explorer(three_lever(0.3), [1.5, 1.5, 2], (0.495, 0.315)),
     "motor": motor_explorer,
     "plan": lambda: plan_explorer(test_live.ARM, test_live.START, (1.9, 0.3), (1.2, 1.3)),
     "tour": lambda: tour_explorer(test_tour_explorer.CIRCLE),
