@@ -23,11 +23,23 @@ from pathlib import Path
 import nbformat
 import numpy as np
 
-from robokin import IRB140, SCARA, Quaternion, Transform, blend, deg, follow, quintic, two_link
+from robokin import (
+    IRB140,
+    SCARA,
+    Quaternion,
+    Transform,
+    blend,
+    deg,
+    follow,
+    quintic,
+    three_lever,
+    two_link,
+)
 from robokin.show import (
     animate,
     joint_explorer,
     motion_explorer,
+    movement_explorer,
     singularity_explorer,
     target_explorer,
 )
@@ -197,6 +209,10 @@ async def ours(path, folder):
         "target, 8 branches": (target_explorer(IRB140), "[data-handle=free]"),
         "SCARA": (target_explorer(SCARA), "[data-handle=free]"),
         "planar": (target_explorer(two_link(0.3, 0.2)), "[data-handle=free]"),
+        "movement": (
+            movement_explorer(three_lever(1), [1.5] * 3, (1.8, 0.6)),
+            "[data-handle=free]",
+        ),
         "singularity": (
             singularity_explorer(IRB140, np.zeros(6), (0, 1, 1)),
             "[data-handle=tool]",

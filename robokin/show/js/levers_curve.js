@@ -44,7 +44,7 @@ import {degrees} from "./turns.js";
  * @typedef {{title: string, axis: string, terms: string[], dashes: number[][]}} Look
  */
 
-const MARGIN = {left: 44, right: 42, top: 26, bottom: 34}, // px
+const MARGIN = {left: 44, right: 54, top: 26, bottom: 34}, // px
   LINE = 12; // px: the height of a line of text
 
 /** @type {(changes: number[]) => number} */
@@ -93,7 +93,7 @@ export function drawCosts(canvas, look, costs) {
   if (whole) {
     drawKinks(plot, costs);
     const ends = [...terms, sums].map(values => y(values[values.length - 1]));
-    tellLines(plot, x(high) + 5, look.terms, ends);
+    tellLines(plot, x(high) + 6, look, ends);
   }
   upright(g, x(alpha), top, bottom, colors.ink, 1.4);
   diamond(g, [x(best[2]), y(total(costs.fewest))]);
@@ -174,13 +174,14 @@ function drawKinks({g, x, y}, {kinks, at}) {
 }
 
 /**
- * Writes the names of the terms and of S next to the ends of their lines, one below the other.
+ * Writes the names of the terms and of S next to the ends of their lines, one below the other, each
+ * with a piece of its line.
  * @param {Plot} plot
  * @param {number} px
- * @param {string[]} terms
+ * @param {Look} look
  * @param {number[]} ends  px, of the terms and of S
  */
-function tellLines({g, top, bottom}, px, terms, ends) {
+function tellLines({g, top, bottom}, px, {terms, dashes}, ends) {
   const names = [...terms, "S"].map((text, j) => ({text, j, py: ends[j] + 4}));
   names.sort((a, b) => a.py - b.py);
   names.forEach((name, k) => {
@@ -191,8 +192,22 @@ function tellLines({g, top, bottom}, px, terms, ends) {
     name.py = Math.min(name.py, most);
     most = name.py - LINE;
   }
-  for (const {text, j, py} of names)
-    write(g, text, px, py, j < terms.length ? jointColor(j) : colors.ink, 11, "left", "600");
+  for (const {text, j, py} of names) {
+    const [color, dash] = j < terms.length ? [jointColor(j), dashes[j]] : [colors.ink, []];
+    /** @type {Pixel[]} */
+    const piece = [
+      [px, py - 4],
+      [px + 13, py - 4],
+    ];
+    stroke(
+      g,
+      piece,
+      color,
+      1.8,
+      dash.map(x => 1.8 * x),
+    );
+    write(g, text, px + 17, py, colors.ink, 11);
+  }
 }
 
 /** @param {Context} g @param {Pixel} place */
