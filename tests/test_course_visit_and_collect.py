@@ -280,7 +280,7 @@ def test_points_that_are_not_a_trap_are_reported(task, points, mistake):
     assert not verdict.holds and verdict.mistake == mistake, verdict
 
 
-def test_loss_of_less_than_half_of_the_worth_is_reported():
+def test_loss_of_less_than_half_of_the_value_is_reported():
     numbers = variant("visit_and_collect", "your name") | {"worth": [3, 2, 3, 4]}
     points = np.array(turned(numbers, [0.5, -1.35, -1.5, -1.2]))
     name, says = TRAPS["trap_fault"]("worth", points, numbers)

@@ -68,7 +68,7 @@ HEAVY = DRAWING | {
     "importlib.resources",
 }
 
-# Libraries of the extras "labs" and "site", for tasks that we should not program ourselves.
+# Libraries of the extras "labs" and "site", for what we should not implement ourselves.
 OUTSIDE = {
     "robokin.course.copies": {"nbformat"},
     "robokin.course.export": {"jinja2", "markupsafe", "math_core", "nbconvert", "nbformat"},

@@ -642,7 +642,7 @@ def test_direct_plan_has_no_via_postures():
     assert "no obstacle is given" in free.words and "not on it" in beside.words
 
 
-def test_via_points_of_the_document_keep_only_smaller_distances():
+def test_via_points_of_the_document_leave_less_clearance():
     """The chords of the circle of radius L/7 come nearer than L/7 (errata S3-n), so the document's
     path works only for a smaller distance.
     """

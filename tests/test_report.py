@@ -55,7 +55,7 @@ def hostile(tmp_path_factory):
         '%time 1\ncheck("scara_motion.1", answer=least_turn)',
         "def inside(q):\n    return True",
         cell('course_check = check\ncheck("scara_motion.2", inside)', "scara_motion.2: holds."),
-        solution("scara_motion.3"),  # a solution for the numbers of "your name"
+        solution("scara_motion.3"),  # solves the variant of "your name"
         cell('check("scara_motion.3", design, who=who)', "scara_motion.3: holds."),
         "exit()",
         "print('still here')",

@@ -189,7 +189,7 @@ def test_home_pose_has_all_its_rows(machine):
     T = arm.fk(np.zeros(6))
     rows = arm.ik(T)
     exists = solved(arm, T, rows)
-    # at home the ITMO6R is stretched, which is tested below
+    # in its home posture the ITMO6R is fully extended, which is tested below
     assert (exists == expected(machine, T)[0]).all() or arm is ITMO6R
     assert abs(rows[exists]).max(-1).min() < 1e-7
 

@@ -1,5 +1,5 @@
-"""Statements of labs 01 to 06 that a reader once refuted: each test reads a statement from its lab
-and recomputes its number by a second method.
+"""Statements in labs 01 to 06 that a reader once refuted: each test reads a statement from its lab
+and recomputes the number in it by a second method.
 """
 
 import contextlib

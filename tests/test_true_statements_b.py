@@ -331,7 +331,7 @@ def lever_distance(q, H, lever=slice(None)):
 
 
 def least_distance(path, H, count=2001):
-    """The least distance on a whole path: the least sample of each segment, refined."""
+    """The smallest distance along a path: the minimum of each segment's samples, refined."""
     found = []
     for a, b in pairwise(np.asarray(path)):
         s = np.linspace(0, 1, count)

@@ -158,7 +158,7 @@ def test_two_distances_locate_two_points_or_one_in_line_with_the_sensors():
         assert in_line[0] == pytest.approx(in_line[1])
 
 
-def test_paths_keep_the_distance_and_sampled_obstacles_are_on_lever_ak():
+def test_paths_keep_their_clearance_and_sampled_obstacles_are_on_lever_ak():
     words = flat("10", "cube-look")
     assert "in steps of at most 5° between allowed postures" in words
     assert "proves every part" in words and "an obstacle on AK" in flat("10", "often-code")

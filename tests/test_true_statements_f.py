@@ -368,7 +368,9 @@ def off(program, h):
 
 
 def kinds(theta, count=60):
-    """Matrices made by `by_hand`, and the same ones rounded by products with other rotations."""
+    """Matrices made by `by_hand`, and the same matrices with the rounding errors of products with
+    other rotations.
+    """
     rng = np.random.default_rng(8)
     exact = np.array([by_hand(f, theta, s) for f, s in rng.uniform(-3, 3, (count, 2))])
     back = Rotation.random(count, random_state=rng).as_matrix()

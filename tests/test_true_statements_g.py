@@ -101,7 +101,7 @@ def test_visiting_in_order_of_angle_turns_joint_1_least():
     rising = tuple(np.argsort(angles).tolist())
     assert {o for o, t in took.items() if t < min(took.values()) + 1e-9} == {rising, rising[::-1]}
     assert round(took[rising], 2) == 38.16
-    # an earlier text was wrong: another order is quicker than going round in order
+    # an earlier text was wrong: a different order is faster than visiting the points in sequence
     assert round(took[0, 1, 2, 3], 2) == 53.87 and round(took[0, 3, 1, 2], 2) == 46.02
 
 
@@ -295,7 +295,7 @@ def test_belt_player_shows_the_streams_of_the_table():
     for k, spread in enumerate(made["player_spreads"]):
         left = belt_stream(spread, 8) / 0.2
         for arm in range(3):
-            # the second and third arms are 1 m farther along the belt than the one before
+            # the second and third arms are each 1 m farther along the belt than the arm before them
             backs, left = one_arm(np.array(left) + (arm > 0) * 5.0, 0.2)
             wanted = [sum(back <= now for back in backs) for now in clock]
             assert made["in_bin"][arm][k].tolist() == wanted
@@ -409,7 +409,7 @@ def test_random_choice_turns_joints_less_as_often_as_stated_but_never_from_the_s
     assert (thrown > could - 1e-4).all()
     assert (thrown > could + 0.1).sum() > 95
     assert abs(thrown - least).min() > 0.01 and (thrown < least).sum() == fewer == 14
-    # a random choice can turn the joints less than the other arm does in a single task, but not in
+    # in a single task, a random choice may turn the joints less than the other arm does, but not in
     # total
     assert (least - thrown).max() == pytest.approx(65.9, abs=0.05)
     assert thrown.sum() > 1.4 * least.sum()

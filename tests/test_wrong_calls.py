@@ -901,7 +901,7 @@ def _foreign(error):
         return f"{type(error).__name__} of {len(text)} characters"
     last = traceback.extract_tb(error.__traceback__)[-1]
     ours = last.filename.startswith(PACKAGE) and last.line.startswith("raise")
-    # Python itself refuses an operator between incompatible operands.
+    # Python itself rejects an operator applied to incompatible operands.
     python = isinstance(error, TypeError) and last.name == "<lambda>" and "operand" in text
     return "" if ours or python else f"{FOREIGN}: {type(error).__name__}: {text}"[:200]
 

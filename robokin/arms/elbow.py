@@ -174,12 +174,12 @@ class Elbow(NamedTuple):
         # adding 0.0 turns -0.0 into 0.0, so that half a turn is +pi
         sin1 = np.where(free, 0.0, (y * r - x * b) / rho2) + 0.0
 
-        # Joints 2 and 3: the triangle of upper arm, forearm and the line from shoulder to point. If
-        # g is the angle between the links, 1 + cos g and 1 - cos g show how far the arm is from
-        # being folded and from being fully extended. Both are computed as differences of two
-        # squares; computed from the cosine, the smaller one would lose its significant digits
-        # (equal links, nearly folded). The squares are written as products because all languages
-        # round products in the same way, but not powers.
+        # Joints 2 and 3: the upper arm, the forearm and the line from shoulder to point form a
+        # triangle. If g is the angle between the links, 1 + cos g and 1 - cos g show how far the
+        # arm is from being folded and from being fully extended. Both are computed as differences
+        # of two squares; computed from the cosine, the smaller one would lose its significant
+        # digits (equal links, nearly folded). The squares are written as products because all
+        # languages round products in the same way, but not powers.
         u, w = r - a, z - c
         d2, scale = u * u + w * w, 2 * upper * fore
         unfolded = (d2 - (upper - fore) * (upper - fore)) / scale

@@ -112,7 +112,7 @@ SLIPS = {
     "sine for cosine": "A sine is used instead of a cosine, or a cosine instead of a sine.",
     "a root left out": "A square root is missing.",
     "a square left out": "A square is missing.",
-    "absolute value left out": "A difference counts with its sign: take its absolute value.",
+    "absolute value left out": "A difference has a sign: take its absolute value.",
     "least for greatest": "The least is taken instead of the greatest, or the other way round.",
     "any for all": "It uses any where all is needed, or the other way round.",
     "a factor of two": "A factor of two is missing, or there is one too many.",

@@ -101,9 +101,7 @@ def parse_line(text: str) -> dict[str, str]:
         number, _, choice = part.strip().partition(" ")
         choice = choice.strip()
         if not re.fullmatch("p[0-9]{1,3}", number) or not CHOICE.fullmatch(choice):
-            raise ValueError(
-                f'guesses: wanted predictions and choices, "p1 b, p5 -290", got {short(part)}'
-            )
+            raise ValueError(f'guesses: wanted choices such as "p1 b, p5 -290", got {short(part)}')
         if number in found:
             raise ValueError(f"guesses: wanted one choice for each prediction, got {number} twice")
         found[number] = choice

@@ -27,7 +27,7 @@ from .texts import ALL_BUT_HALVES, all_visible
 
 NONE = "your name"  # the placeholder for the student's name in the labs
 CLAIM = re.compile(r"\b(\w+\.\w+): (holds|does not hold|not answered yet|not judged)\.")
-# calls of `check` in a cell that is not valid Python
+# calls to `check` in a cell that is not valid Python
 CHECKED = re.compile(r"""check\(\s{0,99}["'](\w{1,99}\.\w{1,99})["']""")
 SIZE = 20_000_000  # maximum number of bytes in a notebook
 CODE = 100_000  # maximum number of characters in a cell that is parsed as Python

@@ -1,5 +1,5 @@
 """Judge a handed-in notebook again: its cells run in a fresh kernel, in order, in a separate
-folder, and the answers in its calls of `check` are judged there with the package's own `check`.
+folder, and the answers in its calls to `check` are judged there with the package's own `check`.
 
 A cell that raises an error does not stop the others. A cell that takes too long is interrupted. A
 cell that cannot be interrupted, or that kills the kernel, is left out, and all others run again in

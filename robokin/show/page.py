@@ -148,7 +148,7 @@ class TimePage(TypedDict):
 
 
 class Page(TimePage):
-    """The data of a player. `decimals` contains the numbers of decimals for speeds and
+    """The data of a player. `decimals` contains the number of decimals for speeds and for
     accelerations. `sampled` says which samples the greatest values come from.
     """
 

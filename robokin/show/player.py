@@ -144,8 +144,8 @@ class Player(Output):
     def save(self, path: str | os.PathLike[str]) -> None:
         """Write one self-contained page (.html), or the scene without the curves as an animated
         picture (.gif: 640 pixels, at most 12 frames per second and 120 frames, with the first value
-        of a slider or menu). Raises ValueError if the name has another ending, if the file exists
-        and is not a saved player, or if the picture is larger than 3 MB.
+        of a slider or menu). Raises ValueError if the name has another extension, if the file
+        exists and is not a saved player, or if the picture is larger than 3 MB.
         """
         name = os.fspath(path) if isinstance(path, (str, os.PathLike)) else ""
         if isinstance(name, str) and os.path.splitext(name)[1] == ".gif":

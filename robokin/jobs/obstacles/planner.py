@@ -274,8 +274,8 @@ def _nearest(arm: ThreeLeverArm, clear: Floats, H: Floats) -> str:
 
 
 def _in_the_way(arm: ThreeLeverArm, direct: Floats, H: Floats, distance: float) -> int:
-    """The index of the first obstacle in the way on the path, or of the nearest one if none is in
-    the way. It is found by sampling, which may miss an obstacle.
+    """The index of the first obstacle that blocks the path, or of the nearest one if none does. The
+    path is sampled, so an obstacle may be missed.
     """
     near = lever_distances(arm, along(direct, np.linspace(0, 1, 100)), H).min(axis=-1)  # (m, 100)
     first = np.where((near < distance).any(axis=1), (near < distance).argmax(axis=1), near.shape[1])

@@ -136,7 +136,7 @@ def faults(data: Any) -> list[str]:
 
 
 def and_more(count: int, shown: int, template: str) -> str:
-    """Insert the number of items not shown into {} of the template; "" if all are shown."""
+    """Insert the number of items not shown in place of {} in the template; "" if all are shown."""
     return template.format(f"{count - shown} more") if count > shown else ""
 
 

@@ -1,4 +1,4 @@
-// The menu of the ellipsoid of tool velocities, and the ellipsoid that it chooses.
+// The menu for the ellipsoid of tool velocities, and the ellipsoid that is selected in it.
 
 import {ellipsoid} from "./dexterity.js";
 import {fill} from "./blanks.js";

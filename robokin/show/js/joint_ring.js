@@ -21,9 +21,9 @@ const CROWDED = 0.2; // joints nearer than this fraction of the arm's reach are 
 
 /**
  * The rings of an arm. If joints are close together, as in a wrist, their rings are at different
- * places along their axes: the ring of the first joint is before the others, and that of the last
- * joint is behind them. The places depend only on the links, so that a ring does not jump while a
- * joint moves.
+ * places along their axes: the ring of the first joint is in front of the others, and that of the
+ * last joint is behind them. The places depend only on the links, so that a ring does not jump
+ * while a joint moves.
  * @param {PageLink[]} chain
  * @param {number} reach
  * @returns {Ring[]}

@@ -130,7 +130,7 @@ function alphaOfGamma(
 }
 
 /**
- * The same arm with other lengths of the levers OB, BA, AK in metres, as in planar.py.
+ * The same arm with different lengths (m) of the levers OB, BA and AK, as in planar.py.
  * @param {ThreeLeverArm} arm
  * @param {number[]} levers
  * @returns {ThreeLeverArm}

@@ -83,7 +83,7 @@ function motorStage(root, data, bench) {
       bench.hold(false);
       stage.changed();
     };
-  // so that the rotor is released after it was moved with the keyboard, too
+  // so that the rotor is also released after being moved with the keyboard
   layer.addEventListener("keyup", letGo);
   layer.addEventListener("focusout", letGo);
   return stage;

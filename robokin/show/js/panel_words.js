@@ -1,4 +1,4 @@
-// The text of a panel of curves for its marks and limits, placed where it covers the curves least.
+// Labels for the marks and limits of a panel of curves, placed where they hide the curves least.
 
 import {colors, font, hit, jointColor, number} from "./canvas.js";
 

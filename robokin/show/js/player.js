@@ -1,4 +1,4 @@
-// The player: recorded motions of arms in space next to their curves. page.py has its data.
+// The player: recorded motions of arms in space next to their curves. page.py defines its data.
 
 import {number, replaceStill} from "./canvas.js";
 import {sceneOf, sceneView} from "./scene.js";

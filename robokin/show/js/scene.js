@@ -230,7 +230,7 @@ function drawCell(pen, arms, cell, named) {
 }
 
 /**
- * Draws arms in one picture and everything around them.
+ * Draws arms, and everything around them, in one picture.
  * @param {Pen} pen
  * @param {Shown[]} arms
  * @param {Box} cell
