@@ -13,7 +13,7 @@ import {record} from "./recorded.js";
 /** @import {Asked, State} from "./motion_parts.js" */
 
 /** @typedef {ReturnType<typeof motionOf>} Motion */
-/** @typedef {{place: Point, text: string}} Near  where a path passes the via point, and its distance */
+/** @typedef {{place: Point, text: string}} Near  where a path passes the via point, and how far */
 /**
  * The greatest speeds and accelerations of a motion. If `sure`, they include those between the
  * samples.

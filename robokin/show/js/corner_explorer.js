@@ -23,7 +23,6 @@ import {scale} from "./ticks.js";
 /** @import {Drawn, State} from "./motion_parts.js" */
 /** @import {Shown} from "./scene.js" */
 
-const STEP = 0.01; // the blend by which an arrow key moves the ring
 const ORDER = 2; // the panel that is shown: accelerations
 
 /**
@@ -33,7 +32,7 @@ const ORDER = 2; // the panel that is shown: accelerations
 export function cornerExplorer(root, data) {
   const corner = cornerOf(data),
     canvas = element("canvas", {class: "rk-scene rk-flat", role: "img"}),
-    told = element("p", {class: "rk-told", role: "status"});
+    told = toldBeside(canvas, data.words);
   const seen = () => corner.seen(state.blend, data.corners[state.corner]),
     stage = frameOf(
       root,
@@ -45,7 +44,7 @@ export function cornerExplorer(root, data) {
     ring = ringOf(data, state, corner, () => motion.now().near?.text ?? ""),
     small = armPicture(data, stage.ask);
   stage.frame.classList.add("rk-corner");
-  stage.side.parentElement?.before(told);
+  stage.side.parentElement?.before(told.node);
   stage.side.after(small.canvas);
   stage.below.append(
     element("div", {class: "rk-columns"}, ...parts.inputs.rows),
@@ -66,12 +65,7 @@ export function cornerExplorer(root, data) {
       parts.inputs.tell();
       clock.tell();
       stage.say(notes(data, {...found, jumps: []}).join(" "));
-      const said = sentences(data, found, tops, worst),
-        text = said.map(({textContent}) => textContent).join(" ");
-      if (canvas.ariaLabel !== data.words.closeUp + text) {
-        told.replaceChildren(...said);
-        canvas.ariaLabel = data.words.closeUp + text;
-      }
+      told.tell(sentences(data, found, tops, worst));
       const before = state.duration === data.start_values.duration ? opening : null,
         panel = panelOf(
           data,
@@ -96,6 +90,25 @@ export function cornerExplorer(root, data) {
 }
 
 /**
+ * The line of sentences above the picture, which are also its name.
+ * @param {HTMLCanvasElement} canvas
+ * @param {MotionPage["words"]} words
+ */
+function toldBeside(canvas, {closeUp}) {
+  const node = element("p", {class: "rk-told", role: "status"});
+  return {
+    node,
+    /** @param {HTMLElement[]} said */
+    tell(said) {
+      const name = closeUp + said.map(({textContent}) => textContent).join(" ");
+      if (canvas.ariaLabel === name) return;
+      node.replaceChildren(...said);
+      canvas.ariaLabel = name;
+    },
+  };
+}
+
+/**
  * The ring that moves the middle of the path. It stands between the path and via.
  * @param {MotionPage} data
  * @param {State} state
@@ -104,7 +117,7 @@ export function cornerExplorer(root, data) {
  * @returns {Handle}
  */
 function ringOf(
-  {words, corners, controls: [{low, high, decimals}], start_values},
+  {words, corners, controls: [{low, high, step: fine, decimals}], start_values},
   state,
   corner,
   distance,
@@ -127,7 +140,7 @@ function ringOf(
       return dx => take(from - dx * per);
     },
     step(right, up, big) {
-      take(state.blend + (up - right) * STEP * (big ? 10 : 1));
+      take(state.blend + (up - right) * fine * (big ? 10 : 1));
     },
     home() {
       state.blend = start_values.blend;

@@ -137,7 +137,11 @@ function drawCorner(g, {to}, {start, via, goal}, {trace = [], tail = [], near}) 
   spot(g, at, 3.5, colors.ink);
 }
 
-/** Points on the sharp corner, which no label covers. @param {MotionPage} data @returns {Point[]} */
+/**
+ * Points on the sharp corner, which no label covers.
+ * @param {MotionPage} data
+ * @returns {Point[]}
+ */
 const between = ({start, via, goal}) =>
   [start, goal].flatMap(({place}) =>
     Array.from({length: 100}, (_, k) => plus(via.place, plus(place, via.place, -1), k / 100)),

@@ -14,7 +14,7 @@ import {scale} from "./ticks.js";
  * @param {number[][]} rows
  * @param {number} order
  * @param {number} now  a sample
- * @param {?{rows: number[][], gaps: Set<number>}} [opening]  the opening motion, if it is shown, too
+ * @param {?{rows: number[][], gaps: Set<number>}} [opening]  the opening motion, if it is shown
  * @returns {Panel}
  */
 export function panelOf({arm, panels, units}, {gaps, jumps}, rows, order, now, opening = null) {
