@@ -1,8 +1,8 @@
-"""robokin: the kinematics of robot arms, to read, run and drag.
+"""robokin: the kinematics of robot arms, as readable code and interactive labs.
 
 Lengths are in metres and angles in radians; write `352 * mm` and `90 * deg` for arguments. Figures
-and players come from `robokin.show`. Arms have no masses and no forces; only
-`robokin.jobs.steppers` integrates a torque, the one on a motor's rotor.
+and players come from `robokin.show`. There are no masses and no forces, with one exception:
+`robokin.jobs.steppers` integrates the torque on the rotor of a motor.
 """
 
 from .arms import (

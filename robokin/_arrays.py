@@ -1,7 +1,7 @@
-"""Read-only arrays, the memory layout of numbers, and the blocks in which a batch is computed.
+"""Read-only arrays, their memory layout, and the computation of batches block by block.
 
 NumPy is fastest on components: one contiguous array for all x, another for all y. The formulas of
-this package work on components. Only this module makes the contiguous arrays and cuts them into
+this package work on components. Only this module makes the contiguous arrays and divides them into
 blocks.
 """
 
@@ -24,7 +24,7 @@ else:  # only type checkers need these, and numpy.typing is slow to import
 
 Array = TypeVar("Array", bound="NDArray[Any]")
 
-BLOCK = 16_000  # numbers in one work array: 128 kB, which the memory allocator keeps for reuse
+BLOCK = 16_000  # numbers in one work array: 128 kB, which the memory allocator can reuse
 
 
 def sealed(array: Array) -> Array:
@@ -39,8 +39,8 @@ def frozen(array: Array) -> Array:
 
 
 class Sealed:
-    """Base class of frozen dataclasses that hold arrays, directly or in tuples. Copies and
-    unpickled objects are read-only too, although NumPy does not copy the flag.
+    """Base class of frozen dataclasses that have arrays or tuples of arrays as fields. The arrays
+    of copies and of unpickled objects are read-only too, although NumPy does not copy this flag.
     """
 
     def __setstate__(self, state: dict[str, Any]) -> None:
@@ -49,8 +49,8 @@ class Sealed:
 
 
 def components(array: Floats) -> tuple[Any, ...]:
-    """Split the last axis: (..., k) -> k arrays (...); (k,) -> k plain numbers, with which the same
-    formulas run several times faster than with arrays of size one.
+    """Split the last axis: (..., k) -> k arrays (...), but (k,) -> k plain numbers. Formulas run
+    several times faster on plain numbers than on arrays of size one.
     """
     if array.ndim == 1:
         return tuple(array.tolist())
@@ -58,8 +58,8 @@ def components(array: Floats) -> tuple[Any, ...]:
 
 
 def stack(parts: Sequence[Any]) -> Floats:
-    """The inverse of `components`: k arrays or numbers, broadcast, -> (..., k), each component
-    contiguous in memory.
+    """The inverse of `components`: broadcast k arrays or numbers and combine them into an array
+    (..., k) in which each component is contiguous in memory.
     """
     if all(isinstance(part, float) for part in parts):
         return np.array(parts)
@@ -75,12 +75,13 @@ def by_blocks(
     """Apply `work` to the rows of arrays (N, k), block by block; return one new array (parts,
     *rest, N).
 
-    work(*blocks)  takes the components of some rows of each array, as a tuple of k arrays (rows,).
-                   It returns a list of parts. A part is a number, an array that broadcasts to
-                   (*rest, rows), or a pair of these for the two entries of the last axis of `rest`.
+    work(*blocks)  receives, for each array, the components of some of its rows as a tuple of k
+                   arrays (rows,). It returns a list of parts. A part is a number, an array that
+                   broadcasts to (*rest, rows), or a pair of these for the two entries of the last
+                   axis of `rest`.
 
-    A block has a few thousand rows. A larger one would not fit into the processor's cache, and
-    every step would wait for memory or ask the system for new pages.
+    A block has a few thousand rows. A larger block would not fit into the processor's cache, so
+    each operation would wait for memory or request new pages from the operating system.
     """
     count = len(columns[0])
     runs = [np.asfortranarray(column) for column in columns]

@@ -1,9 +1,9 @@
 """Checks of the arguments of public functions, and their error messages.
 
-There is one rule. Numbers or strings that cannot be used raise a `ValueError`, whether the kind,
-the shape or the value is wrong. An argument of the wrong class, where an arm, a pose or a task is
-wanted, raises a `TypeError`. Both messages read `name: wanted ..., got ...`. A legal value that is
-probably a mistake (degrees for radians) causes a warning and is accepted.
+There is one rule. A number, array or string that is of the wrong kind or has the wrong shape or
+value raises a `ValueError`. An argument that is not an instance of the required class (an arm, a
+pose, a task) raises a `TypeError`. Both messages have the form `name: wanted ..., got ...`. A legal
+value that is probably a mistake, such as degrees for radians, causes a warning and is accepted.
 """
 
 import math
@@ -19,17 +19,17 @@ from ._arrays import Bools, Floats
 T = TypeVar("T")
 FLOAT = np.dtype(float)
 TWO_TURNS = 4 * np.pi
-# greatest number of axes of an argument; a result may have two more, and NumPy broadcasts up to 32
+# maximum number of axes of an argument; a result may have two more, and NumPy allows at most 32
 AXES = 30
-GREATEST = 10**8  # greatest number of values in one array: more would exhaust a laptop's memory
+GREATEST = 10**8  # maximum number of values in one array: more would exhaust a laptop's memory
 
 
 def floats(value: Any, name: str, last: int | None = None, finite: bool = True) -> Floats:
-    """Return `value` as a float array. `last` is the required length of its last axis. ValueError:
-    it is not such an array.
+    """Return `value` as a float array. `last` is the required length of its last axis. Raises
+    ValueError if `value` cannot be converted.
 
-    With `finite=False` NaN is accepted (it marks a row that does not exist), but infinity is not.
-    The result may share memory with `value`: a caller that keeps it makes a copy.
+    With `finite=False`, NaN (which marks a row that does not exist) is accepted, but infinity is
+    not. The result may share memory with `value`, so a caller that stores it must copy it.
     """
     array = _numbers(value, name)
     if array.ndim > AXES:
@@ -37,7 +37,7 @@ def floats(value: Any, name: str, last: int | None = None, finite: bool = True) 
     if last is not None and (array.ndim == 0 or array.shape[-1] != last):
         raise ValueError(f"{name}: wanted shape (..., {last}), got {array.shape}")
     good = np.isfinite(array) if finite else ~np.isinf(array)
-    # for a few numbers this is three times as fast as `all`
+    # for a few numbers, this is three times as fast as `all`
     if np.count_nonzero(good) < array.size:
         where = tuple(int(i) for i in np.argwhere(~good)[0])
         raise ValueError(f"{name}: wanted finite numbers, got {array[where]} at index {where}")
@@ -45,8 +45,8 @@ def floats(value: Any, name: str, last: int | None = None, finite: bool = True) 
 
 
 def number(value: Any, name: str, what: str = "one number") -> float:
-    """Return `value` as a float. ValueError: it is not one finite number; the message says that
-    `what` was wanted.
+    """Return `value` as a float. Raises ValueError if it is not one finite number; the message says
+    that `what` was wanted.
     """
     array = floats(value, name)
     if array.ndim:
@@ -55,8 +55,8 @@ def number(value: Any, name: str, what: str = "one number") -> float:
 
 
 def positive(value: Any, name: str, what: str = "one positive number") -> float:
-    """Return `value` as a float. ValueError: it is not one positive number; the message says that
-    `what` was wanted.
+    """Return `value` as a float. Raises ValueError if it is not one positive number; the message
+    says that `what` was wanted.
     """
     one = number(value, name, what)
     if one <= 0:
@@ -65,13 +65,13 @@ def positive(value: Any, name: str, what: str = "one positive number") -> float:
 
 
 def length(value: Any, name: str) -> float:
-    """Return `value`, in metres, as a float. ValueError: it is not one positive number."""
+    """Return `value`, in metres, as a float. Raises ValueError if it is not one positive number."""
     return positive(value, name, "one positive length in metres")
 
 
 def whole(value: Any, name: str, low: int, high: int | None = None) -> int:
-    """Return `value` as an int. ValueError: it is not a whole number from `low` to `high`. True is
-    not a number.
+    """Return `value` as an int. Raises ValueError if it is not a whole number from `low` to `high`.
+    True and False do not count as numbers.
     """
     good = isinstance(value, (int, np.integer)) and not isinstance(value, (bool, np.timedelta64))
     if not (good and low <= value and (high is None or value <= high)):
@@ -81,10 +81,12 @@ def whole(value: Any, name: str, low: int, high: int | None = None) -> int:
 
 
 def bools(value: Any, name: str) -> Bools:
-    """Return `value` as a boolean array. ValueError: a value other than True or False."""
+    """Return `value` as a boolean array. Raises ValueError if it contains anything but True and
+    False.
+    """
     try:
         array = np.asarray(value)
-    except Exception:  # an object may claim to be an array and raise any error
+    except Exception:  # an object that claims to be an array may raise any error
         array = np.array(0)
     if array.dtype != bool or masked(value):
         raise ValueError(f"{name}: wanted True or False, or an array of them, got {short(value)}")
@@ -92,8 +94,8 @@ def bools(value: Any, name: str) -> Bools:
 
 
 def selected(part: Floats) -> Floats:
-    """Return the part of an array that an index selected. ValueError: it has so many axes that
-    NumPy could not broadcast it.
+    """Return the part of an array that an index selected. Raises ValueError if the part has more
+    axes than NumPy can broadcast.
     """
     if part.ndim > AXES + 2:
         raise ValueError(f"index: wanted at most {AXES + 2} axes, got {part.ndim}")
@@ -101,7 +103,9 @@ def selected(part: Floats) -> Floats:
 
 
 def shape_of(value: Any, name: str) -> tuple[int, ...]:
-    """Return `value`. ValueError: it is not the shape of an array with at most 30 axes."""
+    """Return `value` as a tuple. Raises ValueError if it is not the shape of an array with at most
+    30 axes.
+    """
     if not (isinstance(value, (tuple, list)) and all(type(n) is int and n >= 0 for n in value)):
         raise ValueError(f"{name}: wanted a tuple of whole numbers, got {short(value)}")
     if len(value) > AXES:
@@ -114,21 +118,21 @@ def shape_of(value: Any, name: str) -> tuple[int, ...]:
 
 
 def text(value: Any, name: str) -> str:
-    """Return `value`. ValueError: it is not a string."""
+    """Return `value`. Raises ValueError if it is not a string."""
     if not isinstance(value, str):
         raise ValueError(f"{name}: wanted a string, got {short(value)}")
     return value
 
 
 def choice(value: Any, name: str, options: Sequence[str]) -> str:
-    """Return `value`. ValueError: it is not one of the options."""
+    """Return `value`. Raises ValueError if it is not one of the options."""
     if not (isinstance(value, str) and value in options):
         raise ValueError(f"{name}: wanted one of {tuple(options)}, got {short(value)}")
     return value
 
 
 def broadcast(name: str, *shapes: tuple[int, ...]) -> tuple[int, ...]:
-    """Return the common batch shape. ValueError: the shapes do not broadcast."""
+    """Return the common batch shape. Raises ValueError if the shapes cannot be broadcast."""
     if all(shape == shapes[0] for shape in shapes):
         return shapes[0]
     try:
@@ -139,7 +143,7 @@ def broadcast(name: str, *shapes: tuple[int, ...]) -> tuple[int, ...]:
 
 
 def instance(value: Any, kind: type[T], name: str, hint: str = "") -> T:
-    """Return `value`. TypeError: it is not an instance of `kind`."""
+    """Return `value`. Raises TypeError if it is not an instance of `kind`."""
     if not isinstance(value, kind):
         article = "an" if kind.__name__[0] in "AEIOU" else "a"
         raise TypeError(f"{name}: wanted {article} {kind.__name__}, got {short(value)}{hint}")
@@ -147,8 +151,9 @@ def instance(value: Any, kind: type[T], name: str, hint: str = "") -> T:
 
 
 def warn_if_degrees(angles: Floats, name: str, stacklevel: int = 3, posture: int = 0) -> None:
-    """Warn (UserWarning) if angles that should be in radians are probably in degrees: one of them
-    exceeds two turns (eight turns in a batch, which may be a motion that keeps turning).
+    """Warn (UserWarning) if angles that should be in radians are probably in degrees, that is, if
+    one of them exceeds two turns (eight turns in a batch, which may be a motion in which a joint
+    keeps turning).
 
     posture  1 if the last axis holds the joints of one posture, 0 if the angles are independent
     """
@@ -160,7 +165,7 @@ def warn_if_degrees(angles: Floats, name: str, stacklevel: int = 3, posture: int
 
 
 def short(value: Any) -> str:
-    """Return a wrong argument as text of at most sixty characters, for a message."""
+    """Return an invalid argument as text of at most sixty characters, for an error message."""
     if isinstance(value, np.ndarray):
         return f"array of shape {value.shape}"
     try:
@@ -173,18 +178,18 @@ def short(value: Any) -> str:
 
 
 def _numbers(value: Any, name: str) -> Floats:
-    """Return `value` as floats. ValueError: it holds something other than real numbers."""
+    """Return `value` as floats. Raises ValueError if it contains anything but real numbers."""
     if type(value) is np.ndarray and value.dtype is FLOAT:
         return value
     if masked(value):
-        raise ValueError(f"{name}: wanted numbers, got a masked array (`filled` makes a plain one)")
+        raise ValueError(f"{name}: wanted numbers, got a masked array (call `filled` first)")
     try:
         array = np.asarray(value)
         if array.dtype is FLOAT:
             return array
         if array.dtype.kind == "O" and array.size and all(map(_is_real, array.flat)):
-            return array.astype(float)  # integers that are too large for NumPy, or fractions
-    except Exception:  # an object may claim to be an array and raise any error
+            return array.astype(float)  # integers too large for NumPy, or fractions
+    except Exception:  # an object that claims to be an array may raise any error
         raise ValueError(f"{name}: wanted numbers, got {short(value)}") from None
     if array.dtype.kind not in "biuf":
         raise ValueError(f"{name}: wanted numbers, got {short(value)}")
@@ -193,7 +198,9 @@ def _numbers(value: Any, name: str) -> Floats:
 
 
 def masked(value: Any) -> bool:
-    """Whether `value` is a masked array. Using `np.ma` here would import it, which takes 8 ms."""
+    """Return whether `value` is a masked array. We do not use `np.ma`, since importing it takes 8
+    ms.
+    """
     return isinstance(value, np.ndarray) and hasattr(value, "mask")
 
 

@@ -1,8 +1,8 @@
 """Unit quaternions: rotations in space, one or a whole batch of them.
 
 Conventions: scalar first (w, x, y, z), Hamilton product, active rotations, right-hand rule. The
-quaternions q and -q are the same rotation. Angles in radians. The leading axes of every array are
-the batch.
+quaternions q and -q are the same rotation. Angles are in radians. The leading axes of every array
+are the batch.
 """
 
 from abc import abstractmethod
@@ -50,8 +50,8 @@ class Quaternion(Batch):
     """A rotation, or a batch of rotations of any shape, as unit quaternions `wxyz` (..., 4).
 
     `a @ b` composes (b first, then a) and `a @ points` rotates points of shape (..., 3). `wxyz` is
-    read-only. ValueError: numbers that are not finite, or a length that differs from 1 by more than
-    1e-6. Source: 001, all listings, which write `*`; the product is Hamilton's.
+    read-only. Raises ValueError if a number is not finite or a length differs from 1 by more than
+    1e-6. Source: 001, all listings, which write `*` for this product (Hamilton's).
 
     >>> half = Quaternion.from_angle_axis(np.pi, (0, 0, 1))
     >>> (half @ (1, 2, 3)).round(3)
@@ -79,8 +79,8 @@ class Quaternion(Batch):
     @classmethod
     def from_angle_axis(cls, angle: ArrayLike, axis: ArrayLike) -> "Quaternion":
         """The rotation by `angle` (...) in radians about the unit vector `axis` (..., 3),
-        counter-clockwise when the axis points at the viewer. ValueError: an axis whose length
-        differs from 1 by more than 1e-6.
+        counter-clockwise when the axis points at the viewer. Raises ValueError if the length of an
+        axis differs from 1 by more than 1e-6.
         """
         angles, axes = floats(angle, "angle"), floats(axis, "axis", 3)
         broadcast("angle and axis", angles.shape, axes.shape[:-1])
@@ -104,12 +104,13 @@ class Quaternion(Batch):
 
     @classmethod
     def from_matrix(cls, matrix: ArrayLike) -> "Quaternion":
-        """The rotations of matrices (..., 3, 3). ValueError: a matrix that is not orthogonal to
-        within 1e-6, or a reflection.
+        """The rotations of matrices (..., 3, 3). Raises ValueError if a matrix is not orthogonal to
+        within 1e-6 or is a reflection.
 
-        The elements of the matrix give every product of two components. Dividing the four products
-        that contain one component by that component gives all four. We choose the largest (Shepperd
-        1978, J. Guidance and Control 1, p. 223), which is at least 1/2.
+        The elements of the matrix give every product of two components of the quaternion. Dividing
+        the four products that contain one component by that component gives all four components. We
+        divide by the largest one (Shepperd 1978, J. Guidance and Control 1, p. 223), which is at
+        least 1/2.
         """
         m = floats(matrix, "matrix", 3)
         if m.ndim < 2 or m.shape[-2] != 3:
@@ -171,9 +172,9 @@ class Quaternion(Batch):
         rotation (see `from_roll_pitch_yaw`); pitch lies in [-pi/2, pi/2].
 
         At a pitch of +-90 degrees (within the rounding of a few products) roll and yaw rotate about
-        the same line, and we set roll to zero. Near this pitch each angle alone loses digits, but
-        together they still give this rotation. Source: Bernardes and Viollet 2022, PLoS ONE 17(11),
-        e0276302.
+        the same line, and we set roll to zero. Near this pitch, each single angle is inaccurate,
+        but together they still give this rotation. Source: Bernardes and Viollet 2022, PLoS ONE
+        17(11), e0276302.
         """
         w, x, y, z = components(self.wxyz)
         (xx, _, _), (yx, _, _), (zx, _, _) = self._rows()
@@ -190,9 +191,9 @@ class Quaternion(Batch):
     def angle_to(self, other: "Quaternion") -> Floats:
         """The angle in [0, pi] of the rotation from this one to `other`: (...) in radians.
 
-        The batches are broadcast. Small angles are accurate to the last digits, unlike the arccos
-        of the product's scalar part. The `angle_to` of source 001 is a different function: the
-        signed angle between two vectors about an axis.
+        The batches are broadcast. Small angles are accurate to the last digit, unlike those from
+        the arccos of the product's scalar part. The `angle_to` of source 001 is a different
+        function: the signed angle between two vectors about an axis.
         """
         instance(other, Quaternion, "other")
         broadcast("the two rotations", self.shape, other.shape)
@@ -318,8 +319,8 @@ def matrix_rows(q: Sequence[Any]) -> tuple[tuple[Any, ...], ...]:
 
 
 def unit(vectors: Floats, name: str, what: str) -> Floats:
-    """Return vectors (..., k) normalised to length 1. ValueError: a length differs from 1 by more
-    than 1e-6; the message says that `what` was wanted.
+    """Return vectors (..., k) normalised to length 1. Raises ValueError if a length differs from 1
+    by more than 1e-6; the message says that `what` was wanted.
     """
     with np.errstate(over="ignore"):
         length = np.sqrt((vectors * vectors).sum(axis=-1, keepdims=True))
@@ -339,7 +340,7 @@ def rounded(array: Floats) -> str:
 
 def _same_sign(a: Floats, b: Floats) -> tuple[Floats, Floats]:
     """Return a and whichever of b and -b is nearer to it."""
-    # The margin keeps rounding errors from choosing the direction of a half turn.
+    # The margin prevents rounding errors from determining the direction of a half turn.
     return a, np.where(((a * b).sum(-1) < -1e-14)[..., None], -b, b)
 
 

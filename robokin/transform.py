@@ -1,8 +1,8 @@
 """Rigid transforms: a rotation and a translation, one or a whole batch of them.
 
 `T_base_tool` gives the tool's frame in base coordinates. `T_base_tool @ T_tool_part` composes, and
-`T_base_tool @ points` converts points (..., 3) from tool coordinates to base coordinates. Metres
-and radians.
+`T_base_tool @ points` converts points (..., 3) from tool coordinates to base coordinates. Lengths
+are in metres and angles in radians.
 """
 
 from dataclasses import dataclass
@@ -22,8 +22,9 @@ class Transform(Batch):
     """A pose or a change of frame: `rotation` first, then `translation` (..., 3) in metres.
 
     Either part may be omitted. A batch of poses acts on a batch of points by broadcasting: `T[:,
-    None] @ points`. The arrays are read-only copies. ValueError: a wrong shape, or numbers that are
-    not finite. Source: 001, all listings, which write `+`; 000, the homogeneous matrices.
+    None] @ points`. The arrays are read-only copies. Raises ValueError if a shape is wrong or a
+    number is not finite. Source: 001, all listings, which write `+` for `@`; 000, the homogeneous
+    matrices.
 
     >>> ahead = Transform(translation=(1, 0, 0))
     >>> left = Transform(Quaternion.from_angle_axis(np.pi / 2, (0, 0, 1)))
@@ -62,8 +63,8 @@ class Transform(Batch):
 
     @classmethod
     def from_matrix(cls, matrix: ArrayLike) -> "Transform":
-        """The transforms of homogeneous matrices (..., 4, 4). ValueError: the upper left part is
-        not a rotation to within 1e-6, or the last row is not 0 0 0 1.
+        """The transforms of homogeneous matrices (..., 4, 4). Raises ValueError if the upper left
+        part is not a rotation to within 1e-6 or the last row is not 0 0 0 1.
         """
         m = floats(matrix, "matrix", 4)
         if m.ndim < 2 or m.shape[-2] != 4:

@@ -1,4 +1,4 @@
-"""The text on the canvases of a page: a script that records it, and a check that finds faults."""
+"""A script that records the text on the canvases of a page, and a check that finds faults in it."""
 
 import re
 from dataclasses import dataclass
@@ -54,7 +54,7 @@ RECORD = """
 })();
 """
 SIZE, CONTRAST = 10, 4.5
-OVERLAP = 1.5  # px by which two boxes may overlap
+OVERLAP = 1.5  # the overlap allowed for two boxes, in px
 
 
 @dataclass

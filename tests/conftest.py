@@ -81,7 +81,7 @@ def browser():
 
 @pytest.fixture(scope="session")
 def jupyter(tmp_path_factory):
-    """A separate JupyterLab on a copy of notebooks/."""
+    """A separate JupyterLab server that works on a copy of notebooks/."""
     home = tmp_path_factory.mktemp("jupyter")
     shutil.copytree(NOTEBOOKS, home / "labs", ignore=shutil.ignore_patterns(".ipynb_checkpoints"))
     with JupyterLab(home, home / "labs") as lab:
@@ -192,7 +192,7 @@ class JupyterLab:
             with urllib.request.urlopen(request, timeout=5) as answer:
                 return json.loads(answer.read() or b"{}")
         except OSError as error:
-            getattr(error, "close", int)()  # an HTTPError keeps its connection open
+            getattr(error, "close", int)()  # an HTTPError holds its connection open
             self._ended()
             return None
 
@@ -223,7 +223,7 @@ class JupyterLab:
 
         JupyterLab ignores the command while the kernel is connecting, so this waits until the
         server reports a connection to an idle kernel and the status bar agrees. Stored outputs and
-        counts are cleared first, so all later ones are new.
+        execution counts are cleared first, so that all those found later are new.
         """
         cells = json.loads((self.labs / name).read_text())["cells"]
         count = sum(
@@ -308,8 +308,8 @@ LONGEST = (
 
 
 def pytest_xdist_auto_num_workers(config):
-    """One more worker than there are cores, since tests wait for browsers and kernels; no workers
-    if all tests are in one file, since one worker would run them all.
+    """Use one more worker than there are cores, since tests wait for browsers and kernels; use no
+    workers if all tests are in one file, since one worker would run them all.
     """
     files = {argument.split("::")[0] for argument in config.args}
     if len(files) == 1 and Path(*files).is_file():

@@ -5,9 +5,9 @@
 
 Each notebook runs in a fresh kernel. The stored form depends only on its cells: it has no widget
 state or timestamps, streams are joined, and a picture with unchanged pixels keeps its old bytes
-(another zlib compresses the same pixels differently). A diff therefore shows only what changed,
-and a second run changes nothing. A notebook that fails is reported and left unchanged, the others
-continue, and the exit status is 1.
+(another version of zlib compresses the same pixels differently). A diff therefore shows only what
+changed, and a second run changes nothing. A notebook that fails is reported and left unchanged, the
+others continue, and the exit status is 1.
 """
 
 import argparse
@@ -30,7 +30,7 @@ KEPT_CELL_METADATA = ("tags", "reason", "jupyter")
 METADATA = {
     "kernelspec": {"display_name": "Python 3 (ipykernel)", "language": "python", "name": "python3"},
     # JupyterLab writes this when a kernel has started; if it differs, the lab counts as unsaved.
-    # `version` is the reader's Python, so no stored value is right for everybody.
+    # `version` is the reader's Python version, so no stored value is correct for all readers.
     "language_info": {
         "codemirror_mode": {"name": "ipython", "version": 3},
         "file_extension": ".py",

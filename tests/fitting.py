@@ -1,4 +1,4 @@
-"""How much of a screen the views of a page need."""
+"""Measure how much of a screen the views of a page need."""
 
 # JupyterLab at 1366 x 768 with its file browser open shows 647 px of a notebook, 914 px wide.
 SCREEN = {"width": 1366, "height": 768}
@@ -10,7 +10,7 @@ MOST = {
 ONE = 560  # px for one arm and for every explorer
 PLOT, ARM, FRAME = 180, 150, 300  # px of the large panel and of the arm in a frame of 300 x 300
 
-# Records the sides of each panel that is drawn, by canvas.
+# Records the frame of each panel that is drawn on each canvas.
 RECORD = """
 (() => {
   const frames = new WeakMap(), {strokeRect, clearRect} = CanvasRenderingContext2D.prototype;
@@ -41,7 +41,7 @@ RECORD = """
 
 
 def sizes(page):
-    """The size of every visible view of a page, with the greatest height wanted."""
+    """The size of every visible view of a page, with the greatest height allowed."""
     found = page.evaluate("viewSizes()")
     for view in found:
         view["most"] = max((MOST[name] for name in MOST if name in view["names"]), default=ONE)
@@ -49,14 +49,14 @@ def sizes(page):
 
 
 def walked(page):
-    """The sizes of all views of a notebook in JupyterLab, which draws only what is near the screen:
-    scroll through it.
+    """The sizes of all views of a notebook in JupyterLab. The function scrolls through the
+    notebook, since JupyterLab draws only what is near the screen.
     """
     scroller = page.locator(".jp-WindowedPanel-outer").first
     found, end = {}, False
     for place in range(400):
         scroller.evaluate("(panel, top) => { panel.scrollTop = top; }", 400 * place)
-        page.wait_for_timeout(250)  # a view starts half a screen before it is seen
+        page.wait_for_timeout(250)  # a view starts when it is half a screen away
         for view in sizes(page):
             found[view["kind"], view["title"]] = view
         if end:

@@ -27,9 +27,8 @@ def report_of(who, slug=SLUG, made=MADE, **changes):
         for n, each in lab.exercises.items()
     ]
     predictions = [
-        {"id": f"{slug}.{n}", "choice": None, "right": None, "confusion": None}
-        | {"when": None, "later": []}
-        for n in lab.predictions
+        {"id": name, "choice": None, "right": None, "confusion": None} | {"when": None, "later": []}
+        for name in book.ids(slug, "predictions")
     ]
     data = {"report": 2, "who": who, "lab": slug, "title": "A lab", "file": f"{slug}.ipynb"}
     data |= {"made": made, "robokin": "2.0.0", "numbers": "", "remarks": [], "guesses_came": True}

@@ -1,5 +1,5 @@
-"""Run Prettier and TypeScript on the scripts of the page, in the versions of js/package-lock.json
-and with Node from PyPI:
+"""Run Prettier and TypeScript on the scripts of the page, in the versions that js/package-lock.json
+specifies and with Node from PyPI:
 
     python tests/javascript.py prettier --write robokin/show/js
     python tests/javascript.py tsc
@@ -63,7 +63,7 @@ def tool(name, *arguments):
 
 
 def written():
-    """The scripts that are generated from Python: path -> text."""
+    """The scripts that are generated from Python: a dict that maps paths to texts."""
     js = ROOT / "robokin/show/js"
     return {js / "page.d.ts": page_types(), js / "kinds.js": kinds()}
 
@@ -95,9 +95,9 @@ def page_types():
     }
     parts = [
         "// Written by `python tests/javascript.py types` from the TypedDicts of page.py, twin.py,",
-        "// numbers.py, motors.py and things/, which say what everything is. Change those.",
+        "// numbers.py, motors.py and things/, which describe every key. Edit those files instead.",
         "",
-        "/** T with these of its optional keys there. */",
+        "/** T in which these optional keys are present. */",
         "export type With<T, K extends keyof T> = T & Required<Pick<T, K>>;",
     ]
     for name, kind in ALIASES.items():
@@ -133,7 +133,7 @@ PLAIN |= {type(None): "null"}
 
 
 def _typed(kind, alias=True):
-    """A Python type as TypeScript writes it."""
+    """A Python type in TypeScript notation."""
     origin, inner = get_origin(kind), get_args(kind)
     if alias and kind in ALIASES.values():
         return next(name for name, known in ALIASES.items() if known == kind)

@@ -6,8 +6,11 @@
 The core path is everything before the heading "More": the words of the text up to "Your turn"
 without formulas, the code cells with their lines, except folded cells, the predictions and the
 exercises. The script allows one minute per 170 words, one for each code cell, two for each
-prediction and twelve for each exercise. The whole lab also has what stands under "More". A gap is
+prediction and twelve for each exercise. The whole lab also includes the part under "More". A gap is
 the time in minutes, before "Your turn", without something that moves outside a prediction.
+
+A lab that still has the heading "Deeper (optional)" has the old shape. The old limits apply to it:
+all of its predictions and exercises count, and the time is given without and with the exercises.
 """
 
 import json
@@ -42,6 +45,14 @@ class Length(NamedTuple):
     core: Size
     whole: Size
     gap: float  # the longest, in minutes
+    old: bool
+
+    @property
+    def minutes(self) -> tuple[float, float]:
+        """The time of the core path and of the whole lab or, in the old shape, the time without and
+        with the exercises.
+        """
+        return self.core.reading if self.old else self.core.minutes, self.whole.minutes
 
 
 CORE = Size(words=1200, cells=12, lines=150, sections=8, predictions=5, exercises=2)
@@ -50,6 +61,10 @@ SHORT = {"13_rotor": 30, "14_conveyor": 30}  # minutes of the whole lab
 START = "00_start_here"  # ten minutes without its exercise
 GAP = 10  # minutes
 MOVES = re.compile(r"^(?:\w+ = )?(?:animate|(?:\w+_)?explorer)\(", re.M)
+# The rules for the old shape, here and in the tests, go when the last lab has the new one.
+OLD = "## Deeper (optional)"
+OLD_MOST = Size(words=1800, cells=18, lines=200, sections=8, predictions=10, exercises=3)
+OLD_READING = 60
 
 
 def measure(path: Path) -> Length:
@@ -59,9 +74,18 @@ def measure(path: Path) -> Length:
     more = _first(cells, r"^#+ More\b")
     end = _first(cells, r"^#+ In short")
     core, rest = _size(cells[:turn]), _size(cells[more:])
+    if old(cells):
+        every = _size(cells)
+        core = core._replace(predictions=every.predictions, exercises=every.exercises)
+        return Length(core, core, 0.0, True)
     tasks = sum(len(re.findall(r"^check\(", _text(cell), re.M)) for cell in cells[turn:end])
     core = core._replace(exercises=tasks)
-    return Length(core, Size(*map(sum, zip(core, rest, strict=True))), _gap(cells[:turn]))
+    return Length(core, Size(*map(sum, zip(core, rest, strict=True))), _gap(cells[:turn]), False)
+
+
+def old(cells) -> bool:
+    """Whether a lab with these cells has the old shape."""
+    return any(_text(cell).startswith(OLD) for cell in cells)
 
 
 def _first(cells, heading: str) -> int:
@@ -100,7 +124,7 @@ def _gap(cells) -> float:
 
 
 def folded(cell) -> bool:
-    """Whether a code cell shows only its output."""
+    """Whether the source of a code cell is hidden."""
     return cell["metadata"].get("jupyter", {}).get("source_hidden", False)
 
 
@@ -113,9 +137,14 @@ def words(text: str) -> list[str]:
 
 def too_long(name: str, length: Length) -> list[str]:
     """A message for each limit that the lab exceeds."""
-    core, whole, gap = length
+    core, whole, gap, old = length
     over = [f"{field} {getattr(core, field)} above {most}"
-            for field, most in CORE._asdict().items() if getattr(core, field) > most]  # fmt: skip
+            for field, most in (OLD_MOST if old else CORE)._asdict().items()
+            if getattr(core, field) > most]  # fmt: skip
+    if old:
+        over += [f"whole {whole.minutes:.0f} min above 90"] * (round(whole.minutes, 6) > 90)
+        most = 10 if name == START else OLD_READING
+        return over + [f"reading {core.reading:.0f} min above {most}"] * (core.reading > most)
     for part, size in (("core", core), ("whole", whole)):
         most = min(MINUTES[part], SHORT.get(name, 90))
         over += [f"{part} {size.minutes:.0f} min above {most}"] * (round(size.minutes, 6) > most)
@@ -129,11 +158,12 @@ def main() -> int:
           f"{'tasks':>6}{'core':>6}{'whole':>6}{'gap':>5}")  # fmt: skip
     long = 0
     for path in paths:
-        core, whole, gap = length = measure(path)
+        core, _, gap, _ = length = measure(path)
+        first, whole = length.minutes
         over = too_long(path.stem, length)
         long += bool(over)
         print(f"{path.stem:32}{core.words:6}{core.cells:6}{core.lines:6}{core.sections:9}"
-              f"{core.predictions:5}{core.exercises:6}{core.minutes:6.0f}{whole.minutes:6.0f}"
+              f"{core.predictions:5}{core.exercises:6}{first:6.0f}{whole:6.0f}"
               f"{gap:5.0f}  {'; '.join(over)}")  # fmt: skip
     print(f"{len(paths) - long} of {len(paths)} within the limits")
     return 1 if long else 0

@@ -44,7 +44,7 @@ def transform(matrix, scale=1.0):
 
 
 def random_joints(arm, rng, shape):
-    """Random joint values: from the full circle, or from the stroke of a prismatic joint."""
+    """Random joint values: from a full turn, or from the stroke of a prismatic joint."""
     low = np.where(arm.prismatic, arm.limits[:, 0], -np.pi)
     high = np.where(arm.prismatic, arm.limits[:, 1], np.pi)
     return rng.uniform(low, high, (*shape, len(arm.links)))

@@ -7,8 +7,8 @@
 
 1. All cells run from top to bottom. At a line with `# try`, each value after it replaces the value
    before it, and every cell that depends on the line runs again. No cell may raise an exception,
-   and in a figure that changes, no title, label or alternative text may contain a number that was
-   typed in. Each value is tried in a fork of the process, in the state that the cells above left.
+   and in a figure that changes, no title, label or alternative text may contain a hard-coded
+   number. Each value is tried in a fork of the process, in the state that the cells above left.
 2. Then each cell runs again alone, from last to first, and must give the same output.
 """
 
@@ -31,7 +31,7 @@ from pathlib import Path
 ROOT = Path(__file__).resolve().parent.parent
 FORKS = hasattr(os, "fork")  # each value is tried in a fork
 TRY = re.compile(r"^(?P<head>\s*[A-Za-z_][\w, \[\]]*? = )(?P<value>.*?)  # try (?P<more>.+)$")
-# Numbers that belong to a name. All other numbers in the text of a figure are results or inputs,
+# Numbers that are part of a name. All other numbers in the text of a figure are results or inputs,
 # and must be computed.
 NAMES = re.compile(
     r"IRB-140|PUMA ?560|\b[23]-?D\b|\b(?:source|companion) 00\d\b"
@@ -79,7 +79,7 @@ class Cell:
         }
 
     def tries(self) -> list[tuple[int, str]]:
-        """(line, the whole line with another value) for each value after `# try`."""
+        """Return the line number and the line with another value, for each value after `# try`."""
         found = []
         for n, line in enumerate(self.source.splitlines()):
             if "# try" not in line:
@@ -213,20 +213,20 @@ def _again(lab: Run, order: list[int], shown: list["Shown"]) -> list[str]:
         try:
             text = lab.run(k).text
         except Exception as error:
-            wrong.append(f"[{k + 1}] again: {type(error).__name__}: {error}")
+            wrong.append(f"[{k + 1}] on a later run: {type(error).__name__}: {error}")
             continue
         if text != shown[k].text:
             a, b = _differ(shown[k].text, text)
-            wrong.append(f"[{k + 1}] again: {b!r} in place of {a!r}")
+            wrong.append(f"[{k + 1}] printed {b!r} on a later run and {a!r} on the first")
     return wrong
 
 
 def _told(lab: Run, shown: list["Shown"], name: str, report) -> list[str]:
-    """The faults that a tried value causes, judged by what the cells showed."""
+    """The faults that a tried value causes, found by comparing what the cells show."""
     if isinstance(report, str):
         return [f"{name}: {report}"]
     return [
-        f"{name}: [{n + 1}] has {part!r} typed in: {word!r}"
+        f"{name}: [{n + 1}] has the hard-coded text {part!r} in {word!r}"
         for n, words, drawn in report
         if drawn != shown[n].drawn
         for word in words

@@ -1,4 +1,4 @@
-"""Players and explorers whose scenes are compared with those of an earlier edition.
+"""Players and explorers whose scenes are compared with those of an earlier version.
 
 tests/data/scenes_11a2279.json is reference data. This script wrote it with the package of commit
 11a2279, in which `targets`, `marks` and `faces` were still separate:
@@ -89,7 +89,7 @@ def explorers():
 
 
 def scenes():
-    """name -> the scene of its page; the name of an explorer begins with "explorer"."""
+    """The scenes of the pages by name; the name of an explorer begins with "explorer"."""
     found = {f"player, {name}": made.data["scene"] for name, made in players()}
     return found | {f"explorer, {name}": made.data["scene"] for name, made in explorers()}
 

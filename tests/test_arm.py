@@ -64,8 +64,8 @@ def test_fk_at_home_matches_the_matrix_chain(machine):
 
 
 def test_irb140_home_pose_follows_from_its_lengths():
-    """Computed by hand from the lengths of listing 1: 70 + 380 + 65 forward, 352 + 350 up; the
-    flange's z axis points forward.
+    """The pose is computed by hand from the lengths of listing 1: 70 + 380 + 65 forward and 352 +
+    350 up. The flange's z axis points forward.
     """
     T = IRB140.fk(np.zeros(6))
     assert np.allclose(T.translation, [0.515, 0, 0.702], rtol=0, atol=1e-15)
@@ -74,7 +74,7 @@ def test_irb140_home_pose_follows_from_its_lengths():
 
 @machines
 @pytest.mark.parametrize("shape", SHAPES)
-def test_frames_go_from_base_to_flange(machine, shape):
+def test_frames_are_ordered_from_base_to_flange(machine, shape):
     arm = machine.arm
     q = random_joints(arm, RNG, shape)
     frames = arm.frames(q)
@@ -128,7 +128,7 @@ def test_jacobian_loses_rank_at_reported_singularities(machine):
 @machines
 def test_nan_joint_value_gives_nan_frames(machine):
     n = len(machine.arm.links)
-    q = np.where(np.eye(n, dtype=bool), np.nan, 0.3)  # in row i, joint i is missing
+    q = np.where(np.eye(n, dtype=bool), np.nan, 0.3)  # in row i, the value of joint i is NaN
     frames = machine.arm.frames(q)
     for i in range(n):
         assert np.isfinite(frames.as_matrix()[i, : i + 1]).all()
@@ -154,7 +154,7 @@ def test_branch_flags_are_unique(machine):
 
 def test_dh_links_equal_the_product_of_four_matrices():
     a, alpha, d, theta, q = RNG.normal(size=(5, 4))
-    frame = (1, 0, 0, 0), (0, 0, 0)  # a quaternion and an origin, as plain numbers
+    frame = (1, 0, 0, 0), (0, 0, 0)  # a quaternion and an origin as plain numbers
     for link, q_i in zip(dh_links(a, alpha, d, theta), q, strict=True):
         _, frame = link._carry(frame, q_i)
     m = np.eye(4)
@@ -191,7 +191,9 @@ def test_both_dh_forms_accept_prismatic_joints(modified):
 
 
 def test_dh_table_of_a_scara_gives_its_forward_kinematics():
-    """Two links turn by 180° about x: the stroke points down, the tool's z axis points up."""
+    """Two links include a rotation by 180° about x, so the stroke points down and the tool's z axis
+    up.
+    """
     links = dh_links(
         a=np.array([200, 250, 0, 0]) * mm,
         alpha=np.array([0, 0, 180, 180]) * deg,
@@ -206,9 +208,9 @@ def test_dh_table_of_a_scara_gives_its_forward_kinematics():
 
 
 def test_craig_table_of_the_puma_gives_fk_and_ik():
-    """Craig, Introduction to Robotics, figure 3.21 (link parameters of the PUMA 560), with the
-    catalogue's lengths. Craig's joints 1 and 2 differ from the catalogue's by half a turn (his axis
-    2 points the other way), and his base is at the shoulder; the flange is the same.
+    """The table is from Craig, Introduction to Robotics, figure 3.21 (link parameters of the PUMA
+    560), with the catalogue's lengths. Craig's joints 1 and 2 differ from the catalogue's by half a
+    turn (his axis 2 points the other way), and his base is at the shoulder; the flange is the same.
     """
     half = 180 * deg
     links = dh_links(
@@ -335,7 +337,7 @@ PUBLISHED = {
 
 
 @pytest.mark.parametrize("name", PUBLISHED)
-def test_limits_and_speeds_match_the_published_ones(name):
+def test_limits_and_speeds_match_the_published_values(name):
     arm, limits, speeds = PUBLISHED[name]
     units = np.where(arm.prismatic, mm, deg)[:, None]
     assert arm.name == name
@@ -347,8 +349,8 @@ def test_limits_and_speeds_match_the_published_ones(name):
 
 
 def test_arms_with_equal_parts_are_not_equal():
-    """Arms, links and poses are compared by identity, because a comparison of arrays has no single
-    result.
+    """Arms, links and poses are compared by identity, because comparing two arrays does not give a
+    single truth value.
     """
     for a, b in (
         (Link(), Link()),
@@ -367,6 +369,6 @@ def test_arms_with_equal_parts_are_not_equal():
                 delattr(a, change)
 
 
-def test_repr_shows_the_name_of_an_arm():
+def test_repr_of_an_arm_shows_its_name():
     assert repr(IRB140) == "Arm('IRB-140', 6 joints)"
     assert repr(three_lever(1)) == "Arm('Three levers', 3 joints)"

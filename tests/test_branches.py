@@ -44,7 +44,7 @@ MIXED = Arm(
 
 
 def representatives(arm, q):
-    """All values q + 2 pi k of each joint that lie inside its limits, found by trial; only k = 0
+    """All values q + 2 pi k of each joint that are inside its limits, found by trial; only k = 0
     for a prismatic joint.
     """
     out = []
@@ -60,7 +60,7 @@ def representatives(arm, q):
 
 @pytest.mark.parametrize("arm", [m.arm for m in MACHINES] + [MIXED], ids=lambda arm: arm.name)
 @pytest.mark.parametrize("shape", SHAPES)
-def test_within_accepts_whole_turns(arm, shape):
+def test_within_accepts_values_that_differ_by_whole_turns(arm, shape):
     rng = np.random.default_rng(20)
     q = rng.uniform(-8, 8, (*shape, len(arm.links)))
     inside = within(arm, q)
@@ -69,7 +69,7 @@ def test_within_accepts_whole_turns(arm, shape):
         assert inside[i].tolist() == [bool(values) for values in representatives(arm, q[i])]
 
 
-def test_within_accepts_the_limit_and_rejects_nan():
+def test_within_accepts_values_at_a_limit_and_rejects_nan():
     assert within(IRB140, IRB140.limits.T).all()
     with pytest.warns(UserWarning, match="q: 13.2645 rad .* did you mean degrees"):
         assert within(IRB140, IRB140.limits[:, 1] + 2 * np.pi).all()
@@ -86,7 +86,7 @@ def test_within_accepts_the_limit_and_rejects_nan():
     ]
 
 
-def test_prismatic_joints_have_no_whole_turns():
+def test_whole_turns_do_not_apply_to_prismatic_joints():
     assert within(MIXED, [0, 6.9]).tolist() == [True, True]
     assert within(MIXED, [110 * deg, -0.6]).tolist() == [True, False]
     assert within(MIXED, [105 * deg, 7.1]).tolist() == [False if 105 - 360 < -250 else True, False]
@@ -94,8 +94,8 @@ def test_prismatic_joints_have_no_whole_turns():
 
 
 def test_limits_beyond_half_a_turn_are_respected():
-    """Errata S1-f: the listing rejects joint 3 at 160 degrees, past its limit of 50, though the
-    joint is at -200.
+    """Errata S1-f: the listing rejects joint 3 at 160 degrees, because this exceeds its limit of 50
+    degrees, although -200 degrees is the same angle and inside the limits.
     """
     drawn = np.array([10, 20, -200, 30, 40, 50]) * deg
     rows = IRB140.ik(IRB140.fk(drawn))
@@ -159,7 +159,7 @@ def test_nearest_broadcasts_and_returns_nan_without_rows():
 
 def test_nearest_does_not_wrap_prismatic_joints():
     rows = np.array([[3.0, 6.5], [-3.0, 0.1]])
-    # 172 degrees are past the limit
+    # 172 degrees exceeds the limit
     assert np.allclose(nearest(MIXED, rows, [0.0, 6.4]), [3.0 - 2 * np.pi, 6.5])
     assert np.allclose(nearest(MIXED, rows, [0.0, 0.0]), [-3.0, 0.1])
     beyond = np.array([[0.0, 7.5]])
@@ -190,8 +190,8 @@ def joint_path(arm, q0, q1, samples=201):
 
 @six
 @pytest.mark.parametrize("middle", [0.0, np.pi])
-def test_follow_passes_straight_through_the_wrist_singularity(machine, middle):
-    """q5 crosses 0 (or pi) while q4 and q6 stand still: in a fixed row both jump by half a turn;
+def test_follow_passes_through_the_wrist_singularity_without_a_jump(machine, middle):
+    """q5 crosses 0 (or pi) while q4 and q6 are constant: in a fixed row both jump by half a turn;
     with `follow`, neither moves.
     """
     arm = machine.arm
@@ -213,9 +213,9 @@ def test_follow_passes_straight_through_the_wrist_singularity(machine, middle):
 
 @six
 @pytest.mark.parametrize("sine", [1e-14, 3e-13, 1e-11, 1e-10])
-def test_rounding_noise_at_the_wrist_singularity_turns_no_joint(machine, sine):
-    """This close to the singularity, joint 4 is rounding noise in every row; a motion does not
-    follow the noise.
+def test_rounding_errors_at_the_wrist_singularity_move_no_joint(machine, sine):
+    """This close to the singularity, the value of joint 4 is dominated by rounding errors in every
+    row; `follow` ignores them.
     """
     arm = machine.arm
     rng = np.random.default_rng(25)
@@ -230,7 +230,7 @@ def test_rounding_noise_at_the_wrist_singularity_turns_no_joint(machine, sine):
 
 
 def test_follow_leaves_home_without_a_jump():
-    """The IRB-140's home pose is a wrist singularity: the motion begins with the joint values of
+    """The IRB-140's home pose is a wrist singularity, so the motion begins with the joint values of
     its second sample.
     """
     goal = Transform(
@@ -259,7 +259,7 @@ def test_follow_leaves_home_without_a_jump():
     assert rotation_gap(IRB140.fk(back[-1]), IRB140.fk(HOME)) < 1e-12
 
 
-def test_free_joints_stay_still_at_the_wrist_singularity():
+def test_free_joints_do_not_move_at_the_wrist_singularity():
     q = np.zeros((50, 6)) + [0, 0.2, -0.1, 0, 0, 0.7]
     q[:, 0] = np.linspace(0, 1, 50)
     path = follow(IRB140, IRB140.ik(IRB140.fk(q)), IRB140.branch(1, 1, 1))
@@ -268,7 +268,7 @@ def test_free_joints_stay_still_at_the_wrist_singularity():
     assert abs(np.diff(path[:, 3:], axis=0)).max() < 1e-12
 
 
-def test_joints_4_and_6_share_the_rotation_at_the_singularity():
+def test_joints_4_and_6_share_a_rotation_equally_at_the_wrist_singularity():
     q = np.zeros((50, 6)) + [0.3, 0.2, -0.1, 0, 0, 0]
     q[:, 5] = np.linspace(0, 1, 50)
     path = follow(IRB140, IRB140.ik(IRB140.fk(q)), IRB140.branch(1, 1, 1))
@@ -276,23 +276,23 @@ def test_joints_4_and_6_share_the_rotation_at_the_singularity():
     assert np.allclose(path[:, 5] - path[0, 5], q[:, 5] / 2, rtol=0, atol=1e-12)
 
 
-def test_singular_start_keeps_joints_inside_their_limits():
-    """Only free joints may take the value of the later sample that determines them: joint 1 crosses
-    180 degrees in between.
+def test_only_free_joints_take_values_from_a_later_sample():
+    """A joint that is free at the start takes its value from the later sample that determines it.
+    Joint 1 is not free, and crosses 180 degrees before that sample.
     """
     q = np.zeros((60, 6)) + [0, 0.2, -0.1, 0.3, 0, 0.4]
     q[:, 0] = 3.0 + np.linspace(0, 0.5, 60)
     q[40:, 4] = np.linspace(0, 0.5, 20)
     path = follow(IRB140, IRB140.ik(IRB140.fk(q)), IRB140.branch(1, 1, 1))
     assert abs(path[:, :3] - q[:, :3]).max() < 1e-9
-    # joints 4 and 6 already have the values that the first bend needs
+    # at the start, joints 4 and 6 already have the values that they need when joint 5 first moves
     assert abs(path - q).max() < 1e-6
 
 
 @machines
 def test_follow_returns_the_original_motion(machine):
-    """Joint paths over several turns, through +-pi, past every limit: the same motion comes back,
-    unwrapped.
+    """For joint paths over several turns, through +-pi and beyond every limit, `follow` returns the
+    same motion, unwrapped.
     """
     arm = machine.arm
     rng = np.random.default_rng(26)
@@ -323,7 +323,7 @@ def test_follow_returns_the_original_motion(machine):
         assert abs(path - turned - q).max() < 1e-6
 
 
-def test_joint_6_keeps_turning_past_its_limit():
+def test_follow_lets_joint_6_turn_beyond_its_limit():
     q0, q1 = np.array([0.3, 0.2, -0.1, 0.3, 0.7, 6.0]), np.array([0.4, 0.1, 0.1, -0.3, 0.5, 21.0])
     q, rows, row = joint_path(IRB140, q0, q1, 301)
     path = follow(IRB140, rows, row)
@@ -350,7 +350,7 @@ def out_and_back():
     return IRB140.ik(Transform(T.rotation, out))
 
 
-def test_follow_continues_after_nan_from_the_last_sample():
+def test_follow_continues_after_a_gap_from_the_last_sample_before_it():
     rows = out_and_back()
     path = follow(IRB140, rows, 0)
     gone = np.isnan(path).any(-1)
@@ -358,17 +358,17 @@ def test_follow_continues_after_nan_from_the_last_sample():
     inside = np.flatnonzero(~gone)
     last, first = inside[inside < 150][-1], inside[inside > 150][0]
     assert last < 140 and first > 160
-    assert np.allclose(path[first], path[last], atol=0.15)  # the arm comes back along the same line
+    assert np.allclose(path[first], path[last], atol=0.15)  # the arm returns along the same line
     assert np.allclose(path[-1], path[0], rtol=0, atol=1e-9)
     assert (
         np.nanmax(abs(np.diff(path, axis=0))) < 0.2
-    )  # the joints move fast near the stretched arm
+    )  # the joints move fast when the arm is nearly stretched
     shifted = rows.copy()
     shifted[:first] = np.nan
     assert np.allclose(follow(IRB140, shifted, 0)[first:], rows[first:, 0], rtol=0, atol=1e-9)
 
 
-def test_follow_waits_for_the_first_sample_of_its_row():
+def test_follow_starts_at_the_first_sample_in_which_its_row_exists():
     rows = out_and_back()[::-1].copy()
     rows[:20, 3] = np.nan
     path = follow(IRB140, rows, 3)
@@ -419,7 +419,7 @@ def test_follow_accepts_a_single_sample():
 # explain
 # --------------------------------------------------------------------------------------------------
 
-TURNED = Quaternion.from_angle_axis(90 * deg, (0, 1, 0))  # the flange's z axis points ahead
+TURNED = Quaternion.from_angle_axis(90 * deg, (0, 1, 0))  # the flange's z axis points forward
 
 
 def test_explain_describes_a_usable_row():
@@ -432,7 +432,7 @@ def test_explain_describes_a_usable_row():
 
 
 def test_explain_reports_the_distance_out_of_reach():
-    # 12.3 mm beyond the stretched arm, ahead of the shoulder
+    # 12.3 mm beyond the reach of the stretched arm, in front of the shoulder
     centre = np.array([0.07 + 0.73 + 0.0123, 0, 0.352])
     pose = Transform(TURNED, centre + [0.065, 0, 0])
     for row in range(4):
@@ -449,15 +449,15 @@ def test_explain_reports_the_distance_out_of_reach():
     assert "8.6 mm" in explain(PUMA560, Transform(translation=(0.1, 0.1, 0.9)), 0)
 
 
-def test_explain_suspects_millimetres():
+def test_explain_asks_whether_a_distant_pose_is_in_millimetres():
     text = explain(IRB140, Transform(TURNED, (515, 0, 702)), 0)
     assert "does not exist" in text and "millimetres" in text and "mm" in text
-    # this pose makes no sense in mm either
+    # in millimetres, this pose would be out of reach, too
     assert "millimetres" not in explain(IRB140, Transform(TURNED, (515e3, 0, 702e3)), 0)
     assert "millimetres" not in explain(IRB140, Transform(TURNED, (2, 0, 0.7)), 0)
 
 
-def test_explain_names_every_joint_past_its_limit():
+def test_explain_names_every_joint_outside_its_limits():
     drawn = np.array([10, 105, 60, 30, 120, 50]) * deg
     pose = IRB140.fk(drawn)
     row = int(np.nanargmin(turns(IRB140.ik(pose), drawn).max(-1)))
@@ -471,7 +471,7 @@ def test_explain_names_every_joint_past_its_limit():
     assert "joint 2" in text and "-100.0°" in text and "10.0°" in text and "-90°" in text
 
 
-def test_explain_reports_prismatic_joints_in_millimetres():
+def test_explain_gives_the_values_of_prismatic_joints_in_millimetres():
     pose = SCARA.fk([0.2, 0.5, 0.1, 200 * mm])
     text = explain(SCARA, pose, 0)
     assert (
@@ -515,7 +515,7 @@ def test_explain_agrees_with_ik_and_within(machine):
     assert {(True, False), (False, True)} <= seen
 
 
-# wrong calls
+# invalid calls
 # --------------------------------------------------------------------------------------------------
 
 ROWS = IRB140.ik(IRB140.fk(np.full((4, 6), 0.2)))
@@ -548,12 +548,12 @@ ROWS = IRB140.ik(IRB140.fk(np.full((4, 6), 0.2)))
         (lambda: explain(None, IRB140.fk(HOME), 0), "None"),
     ],
 )
-def test_wrong_arguments_are_named_in_the_error(call, evidence):
+def test_errors_name_the_invalid_argument(call, evidence):
     with pytest.raises((ValueError, TypeError), match=evidence):
         call()
 
 
-def test_blend_stays_on_one_row():
+def test_follow_keeps_a_blend_on_one_row():
     """Far from all singularities, `follow` returns the row on which it starts, unwrapped."""
     start = Transform(Quaternion.from_angle_axis(90 * deg, (-1, 0, 0)), (0.2, 0.4, 0.2))
     via = Transform(Quaternion.from_angle_axis(45 * deg, (0, 1, 0)), (0.65, -0.1, 0.8))
@@ -567,14 +567,14 @@ def test_blend_stays_on_one_row():
         assert abs(np.diff(path, axis=0)).max() < 0.05
 
 
-# joint values for people to read
+# joint values for display
 # --------------------------------------------------------------------------------------------------
 
 
 @pytest.mark.parametrize("arm", [m.arm for m in MACHINES] + [MIXED], ids=lambda arm: arm.name)
 def test_representative_is_inside_the_limits_or_closest_to_them(arm):
-    """Compared with a trial of all whole turns: the value inside the limits nearest to q, otherwise
-    the one with the smallest excess.
+    """The result equals that of a trial of all whole turns: the value inside the limits that is
+    nearest to q, or else the one with the smallest excess.
     """
     rng = np.random.default_rng(31)
     q = rng.uniform(-11, 11, (400, len(arm.links)))
@@ -595,9 +595,9 @@ def test_representative_is_inside_the_limits_or_closest_to_them(arm):
                 assert max(row[i] - high, low - row[i]) == pytest.approx(past.min(), abs=1e-12)
 
 
-def test_representative_has_the_least_excess():
-    """Lab 02 once showed q3 at -300.5 degrees, 70 past its limit, and lab 07 showed q5 at 259.8,
-    although -100.2 is only 0.2 past.
+def test_representative_exceeds_a_limit_as_little_as_possible():
+    """Lab 02 once showed q3 at -300.5 degrees, 70 degrees beyond its limit, and lab 07 showed q5 at
+    259.8, although -100.2 exceeds its limit by only 0.2.
     """
     q = np.zeros(6)
     for k in (-1, 0, 1):
@@ -621,7 +621,7 @@ def test_representative_keeps_a_joint_at_its_limit():
             assert np.allclose(representative(arm, limit), limit, rtol=0, atol=1e-12)
 
 
-def test_unwrapped_takes_the_nearest_turn_and_leaves_prismatic_joints_alone():
+def test_unwrapped_takes_the_nearest_turn_and_does_not_change_prismatic_joints():
     rng = np.random.default_rng(32)
     q, near = rng.uniform(-9, 9, (2, 100, 2))
     got = unwrapped(MIXED, q, near)
@@ -639,11 +639,11 @@ def test_degrees_cause_a_warning_and_long_motions_do_not():
         IRB140.frames([0, 90, 0, 0, 0, 0])
     motion = np.linspace(np.zeros(6), np.full(6, 8 * np.pi), 100)  # four turns
     within(IRB140, motion), IRB140.fk(motion)
-    SCARA.fk([0.1, 0.2, 0.3, 90])  # metres
+    SCARA.fk([0.1, 0.2, 0.3, 90])  # 90 is in metres
 
 
 def test_follow_of_a_batch_matches_single_motions():
-    """One motion is singular throughout, one begins late, one is missing."""
+    """One motion is singular throughout, one begins late, and one is missing."""
     s = np.linspace(0, 1, 30)[:, None]
     plain = np.array([0.1, 0.2, 0.3, 0.4, 0.5, 0.6]) + 0.5 * s
     stuck = np.array([0.1, 0.2, 0.3, 0.9, 0.0, 0.6]) + [0.5, 0.3, 0.2, 0.4, 0, 0.3] * s
@@ -657,8 +657,10 @@ def test_follow_of_a_batch_matches_single_motions():
         assert np.isnan(together[1, :3]).all() and np.isfinite(together[:3, 3:]).all()
 
 
-def test_motion_with_a_missing_start_begins_inside_its_limits():
-    """Joint 3 of the IRB-140 reaches -230 degrees: -200 is inside where 160 is not."""
+def test_motion_with_a_missing_start_begins_inside_the_limits():
+    """Joint 3 of the IRB-140 can turn to -230 degrees: -200 is inside its limits, although 160, the
+    same angle, is not.
+    """
     s = np.linspace(0, 1, 20)[:, None]
     q = (np.array([10, 20, -200, 30, 40, 50]) + [5, 5, -5, 5, 5, 5] * s) * deg
     rows = IRB140.ik(IRB140.fk(q))

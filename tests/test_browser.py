@@ -1,7 +1,7 @@
-"""Players in a real browser: live in JupyterLab, in trusted and untrusted notebooks, exported and
-saved.
+"""Players in a real browser: running in JupyterLab, in trusted and untrusted notebooks, exported
+and saved.
 
-The tests read what a person would see: the pixels of the canvases and the text of the table.
+The tests read what a reader would see: the pixels of the canvases and the text of the table.
 """
 
 import html
@@ -149,7 +149,7 @@ def test_player_works_in_jupyterlab(browser, jupyter, page, lab):
     awake(page)
     player = players.filter(has=page.get_by_label("playback speed")).first  # not an explorer
     player.scroll_into_view_if_needed()
-    assert player.locator("img").count() == 0, "the still picture is still there"
+    assert player.locator("img").count() == 0, "the still picture was not removed"
     for slider in _sliders(player):
         _moves(page, player, slider)
     _plays(page, player)
@@ -167,7 +167,7 @@ def test_opening_a_lab_does_not_mark_it_as_changed(jupyter, page):
         (jupyter.labs / name).write_text(json.dumps(notebook))
         jupyter.open(page, name)
         page.get_by_text("| Idle").first.wait_for()
-        page.wait_for_timeout(1500)  # the status of widgets and language comes later
+        page.wait_for_timeout(1500)  # the status of widgets and the language appears later
         assert tab.count() == 1 and "jp-mod-dirty" not in tab.get_attribute("class"), name
     page.locator(".jp-CodeCell .cm-content").first.click()
     page.keyboard.type("# mine")
@@ -228,7 +228,7 @@ def test_arrow_keys_reach_the_slider_and_not_the_notebook(jupyter, page):
     )
 
 
-def test_trusted_notebook_plays_without_running(jupyter, page):
+def test_players_of_a_trusted_notebook_play_before_any_cell_runs(jupyter, page):
     name = _variant(jupyter, "trusted.ipynb")
     jupyter.trust(name)
     jupyter.open(page, name)
@@ -273,7 +273,7 @@ def test_players_of_exported_labs_work_offline(page, exported, lab):
         player.locator("canvas").first.wait_for()
         if player.locator(":scope > .rk-figure").count():
             continue  # joint curves without controls
-        asleep = player.locator(".rk-asleep").count()  # asleep where there is no kernel
+        asleep = player.locator(".rk-asleep").count()  # inactive without a kernel
         if player.locator(".rk-handle").count() and not asleep:
             _answers(page, player)
             continue
@@ -282,7 +282,7 @@ def test_players_of_exported_labs_work_offline(page, exported, lab):
         player.evaluate("e => e.classList.add('played')")
         played.append(player)
     if played:
-        for slider in _sliders(played[0]):  # tested with keys and mouse
+        for slider in _sliders(played[0]):  # tested below with keys and mouse
             _moves(page, played[0], slider)
         assert page.evaluate(ALIVE, ".played") == {}
         _plays(page, played[0])
@@ -344,8 +344,8 @@ def _seen(player):
 
 
 def _settled(page, player):
-    """Return the visible content once the player is at rest: views above it may still move or widen
-    it.
+    """Return the visible content once it no longer changes: views above the player may still move
+    or widen it.
     """
     seen = _seen(player)
     for _ in range(20):
@@ -359,7 +359,7 @@ def _settled(page, player):
 def _sliders(player):
     player.locator("canvas").first.wait_for()
     sliders = player.locator("input[type=range]:not([inert] *)").all()
-    assert sliders, "a player lacks even its time slider"
+    assert sliders, "the player does not even have its time slider"
     return sliders
 
 
@@ -368,7 +368,9 @@ def _slider(player, label):
 
 
 def _moves(page, player, slider):
-    """Keys and mouse must change the value and the picture, which depends only on the value."""
+    """Assert that keys and mouse change the value and the picture, and that the picture depends
+    only on the value.
+    """
     slider.scroll_into_view_if_needed()
     slider.focus()
     slider.press("Home")
@@ -398,7 +400,9 @@ def _moves(page, player, slider):
 
 
 def _answers(page, player):
-    """A slider and a key on a handle must change the picture and the text of an explorer."""
+    """Assert that a slider and a key press on a handle change the picture and the text of an
+    explorer.
+    """
     for held in (player.locator("input[type=range]").first, player.locator(".rk-handle").first):
         held.scroll_into_view_if_needed()
         held.focus()
@@ -416,7 +420,7 @@ def _answers(page, player):
 
 
 def _plays(page, player):
-    """The play button must start and stop the arm."""
+    """Assert that the play button starts and stops the arm."""
     button = player.get_by_role("button", name=re.compile("play|pause", re.I)).first
     seen = _seen(player)
     button.click()
@@ -439,7 +443,7 @@ def _html_outputs(lab):
 
 
 def _opens(question):
-    """Make a guess; the prediction must answer it."""
+    """Make a guess, and assert that the prediction replies to it."""
     assert not question.locator(".rk-answer").inner_text()
     typed = question.locator("fieldset input[type=number]")
     if typed.count():

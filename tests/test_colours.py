@@ -1,4 +1,4 @@
-"""Labs, companions and exercises take their colours from the palette and never type one."""
+"""Labs, companions and exercises take their colours from the palette and never hard-code one."""
 
 import ast
 import json
@@ -16,14 +16,15 @@ from robokin.show import JOINT_STYLES, bars, curves, figure, palette
 ROOT = Path(__file__).parents[1] / "notebooks"
 NOTEBOOKS = sorted([*ROOT.glob("*.ipynb"), *ROOT.glob("documents/*.ipynb")])
 EXERCISES = sorted(ROOT.glob("exercises/*/*.py"))
-# Arguments and keys that hold a colour. "none" is not a colour; a colour map (cmap) is not one.
+# Arguments and keys that contain a colour. Neither "none" nor a colour map (cmap) is a colour.
 HOLDERS = re.compile(r"c|fc|ec|mec|mfc|\w*colors?", re.I)
-DRAWN = {"plot", "step", "loglog", "semilogx", "semilogy", "errorbar"}  # take a format, as "k--"
+# these accept a format such as "k--"
+DRAWN = {"plot", "step", "loglog", "semilogx", "semilogy", "errorbar"}
 FORMAT = re.compile(r"(?=.*[bgrcmykw])[bgrcmykw]?[-:.,ov^<>12348spP*hH+xXDd|_]*[bgrcmykw]?")
 
 
 def typed(source):
-    """The colours that Python code types, as (line, colour)."""
+    """The colours that Python code hard-codes, as (line, colour)."""
     tree = ast.parse("\n".join(re.sub(r"^%.*", "", line) for line in source.splitlines()))
     found = set()
     for node in ast.walk(tree):
@@ -57,7 +58,9 @@ def _held(node):
 
 
 def _plain(text):
-    """Whether a text can only be a colour: its code, a grey level, or a name of three letters."""
+    """Whether a text can only be a colour: a colour code, a grey level or a name of at least three
+    letters.
+    """
     coded = re.fullmatch(r"#([0-9A-Fa-f]{3,4}){1,2}|C\d|(tab|xkcd):.*|0?\.\d+", text)
     return bool(coded) or (
         len(text) > 2 and text.isalpha() and is_color_like(text) and text != "none"
@@ -78,7 +81,7 @@ def code(path):
 @pytest.mark.parametrize(
     "path", [*NOTEBOOKS, *EXERCISES], ids=lambda p: f"{p.parent.name}/{p.name}"
 )
-def test_no_colour_is_typed(path):
+def test_no_colour_is_hard_coded(path):
     assert typed(code(path)) == []
 
 
@@ -107,12 +110,12 @@ INNOCENT = (
 
 
 @pytest.mark.parametrize("source", PLANTED)
-def test_planted_colour_is_found(source):
+def test_hard_coded_colours_are_detected(source):
     assert typed(f"x = 1\n{source}"), source
 
 
 @pytest.mark.parametrize("source", INNOCENT)
-def test_words_that_are_no_colours_are_not_found(source):
+def test_words_that_are_not_colours_are_ignored(source):
     assert typed(source) == []
 
 
@@ -123,8 +126,9 @@ GROUNDS = ("PAPER", "AREA", "FIRST_AREA", "SECOND_AREA", "THIRD_AREA")
 
 
 def in_the_dark(color):
-    """A colour of a picture as a dark page shows it: `invert(1) hue-rotate(180deg)` by the matrix
-    of W3C, Filter Effects Module 1, section 11.1, then `screen` over the page's paper.
+    """A colour of a picture as a dark page shows it: the filter `invert(1) hue-rotate(180deg)`,
+    computed with the matrix of W3C, Filter Effects Module 1, section 11.1, and then the blend mode
+    `screen` with the page's paper colour.
     """
     red, green, blue = 0.213, 0.715, 0.072
     turn = 2 * np.array([[red, green, blue]] * 3) - np.eye(3)
@@ -134,7 +138,7 @@ def in_the_dark(color):
 
 
 @pytest.mark.parametrize("name", TEXT)
-def test_roles_of_text_are_readable_on_light_and_dark_pages(name):
+def test_text_colours_are_readable_on_light_and_dark_pages(name):
     color = getattr(palette, name)
     for ground in GROUNDS[:2] if name != "INK" else GROUNDS:
         on = getattr(palette, ground)
@@ -142,7 +146,7 @@ def test_roles_of_text_are_readable_on_light_and_dark_pages(name):
         assert contrast(in_the_dark(color), in_the_dark(on)) >= 4.5, (name, ground, "dark")
 
 
-def test_what_is_compared_does_not_look_like_a_joint():
+def test_colours_for_comparisons_differ_from_the_colours_of_joints():
     joints = [rgb(style["color"]) for style in JOINT_STYLES]
     compared = [rgb(color) for color, _ in palette.COMPARED]
     for k, color in enumerate(compared):
@@ -151,12 +155,12 @@ def test_what_is_compared_does_not_look_like_a_joint():
     assert len({dash for _, dash in palette.COMPARED}) == len(compared)
 
 
-# --- The one style --------------------------------------------------------------------------------
+# --- The common style -----------------------------------------------------------------------------
 
 T = np.linspace(0, 1, 5)
 
 
-def test_every_title_is_bold_and_at_the_left():
+def test_every_title_is_bold_and_left_aligned():
     fig = figure("Two plots, one title for both.")
     one, two = fig.subplots(1, 2)
     one.set_title("By set_title")
@@ -172,7 +176,7 @@ def test_every_title_is_bold_and_at_the_left():
         assert text.get_window_extent().x1 <= fig.bbox.width
 
 
-def test_long_title_of_a_plot_with_true_proportions_is_inside_the_figure():
+def test_long_title_of_a_plot_drawn_to_scale_fits_in_the_figure():
     fig = figure("A square.", 7, 3)
     ax = fig.subplots()
     ax.set(aspect="equal", title="Links of 4 and 5 m serve all out to 9 m, but for a round hole")
@@ -181,14 +185,14 @@ def test_long_title_of_a_plot_with_true_proportions_is_inside_the_figure():
     assert box.x0 >= 0 and box.x1 <= fig.bbox.width and box.y1 <= fig.bbox.height
 
 
-def test_style_of_figures_does_not_change_matplotlib():
+def test_figure_style_does_not_change_the_settings_of_matplotlib():
     before = dict(matplotlib.rcParams)
     ax = figure("A plot.").subplots()
     assert ax.plot(T, T)[0].get_color() == palette.FIRST
     assert dict(matplotlib.rcParams) == before
 
 
-def test_curves_differ_in_colour_and_dash_and_keep_their_values():
+def test_curves_differ_in_colour_and_dash_pattern_and_keep_their_values():
     ax = figure("Curves.").subplots()
     given = {name: k * T**2 for k, name in enumerate("abcd", start=1)}
     curves(ax, T, given, xlabel="t, s", ylabel="s, m", title="Four")
@@ -210,7 +214,7 @@ def test_curves_of_joints_have_the_colours_of_the_joints():
     assert alone.get_legend() is None
 
 
-def test_bars_are_as_long_as_their_values_and_say_them():
+def test_bars_have_the_lengths_and_labels_of_their_values():
     ax = figure("Bars.").subplots()
     bars(ax, {"before": 12.0, "after": 3.5}, "{:.1f} ms", xlabel="time, ms", title="Faster")
     assert [bar.get_width() for bar in ax.patches] == [12, 3.5]
@@ -230,6 +234,6 @@ def test_bars_are_as_long_as_their_values_and_say_them():
         (lambda ax: bars(ax, {"a": 1}, "{1}"), "form: wanted"),
     ],
 )
-def test_wrong_values_are_named(wrong, said):
+def test_errors_name_the_invalid_value(wrong, said):
     with pytest.raises(ValueError, match=said):
         wrong(figure("Nothing.").subplots())

@@ -1,4 +1,4 @@
-"""Completion: what an editor or a notebook offers after a dot, without running anything."""
+"""Completion: the names that an editor or notebook offers after a dot, without running any code."""
 
 import jedi
 import pytest
@@ -14,7 +14,7 @@ POSE = {"rotation", "translation", "inverse", "lerp", "as_matrix", "shape"}
 ARRAY = {"shape", "T", "max", "reshape"}
 ARM = {"fk", "frames", "jacobian", "limits", "name"}
 
-# the text before the dot -> (names that must be offered, names that must not be offered)
+# For each text before the dot: the names that must be offered, and those that must not.
 OFFERED = {
     "lin(T, T, .5)": (POSE, ARRAY - {"shape"}),
     "blend(T, T, T, .1, .5)": (POSE, ARRAY - {"shape"}),

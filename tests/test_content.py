@@ -28,7 +28,9 @@ UNJUDGED = "It cannot be judged."
 
 
 def test_all_content_can_be_read():
-    """If a line of a solution changes, write its new text to the left of the arrow in each edit."""
+    """If you change a line of a solution, also change the text to the left of the arrow in each
+    edit of it. The tests report the edits that no longer match.
+    """
     told = [line for lab in book.labs().values() for line in lab.broken.values()]
     if told:
         pytest.fail("\n".join(told), pytrace=False)
@@ -36,21 +38,23 @@ def test_all_content_can_be_read():
 
 @pytest.mark.parametrize("lab", book.labs())
 def test_content_files_are_short(lab):
-    """A file has at most 350 lines, and no name that pytest would take for a test module."""
+    """A file has at most 350 lines, and its name is not one that pytest would collect as a test
+    module.
+    """
     for file in book.labs()[lab].folder.glob("*.[mp][dy]"):
         assert len(file.read_text(encoding="utf-8").splitlines()) <= 350, file
         assert not file.stem.startswith("test_") and not file.stem.endswith("_test"), file
 
 
 @pytest.mark.parametrize("name", EXERCISES)
-def test_exercises_have_all_their_sections(name):
+def test_exercises_have_all_required_sections(name):
     text = EXERCISES[name].text
     assert text.title and text.task and len(set(text.hints)) == 3
     assert all(hint.strip() for hint in text.hints) and EXERCISES[name].solution.strip()
 
 
 @pytest.mark.parametrize("name", [*FUNCTIONS, *CATCHES])
-def test_mistakes_have_unique_names_and_sentences(name):
+def test_mistakes_have_unique_names_and_explanations(name):
     mistakes = EXERCISES[name].text.wrong()
     assert len({each.name for each in mistakes}) >= 6, "wanted at least six mistakes"
     for what in ("name", "says"):
@@ -80,7 +84,7 @@ def _outcomes(exercise, variant):
 
 
 @pytest.mark.parametrize("name", FUNCTIONS)
-def test_solutions_satisfy_the_law(name):
+def test_solutions_satisfy_the_law_of_their_exercise(name):
     exercise = EXERCISES[name]
     right = [exercise.formed(Outcome(wanted), k) for k, wanted in enumerate(exercise.wanted)]
     assert [exercise.wrong(o, k) for k, o in enumerate(right)] == [None] * len(exercise.cases)
@@ -88,7 +92,7 @@ def test_solutions_satisfy_the_law(name):
 
 @pytest.mark.parametrize("name", FUNCTIONS)
 def test_each_mistake_gives_wrong_results_and_gets_its_own_name(name):
-    """If an edit uses a name that does not exist, the program raises an error in every case."""
+    """A program whose edit uses a name that does not exist would raise an error in every case."""
     exercise = EXERCISES[name]
     for variant in exercise.own:
         got = outcomes(exercise, variant)
@@ -103,7 +107,7 @@ def test_each_mistake_gives_wrong_results_and_gets_its_own_name(name):
 
 
 @pytest.mark.parametrize("name", CATCHES)
-def test_programs_of_test_exercises_can_be_built(name):
+def test_programs_of_exercises_that_ask_for_a_test_compile(name):
     exercise = EXERCISES[name]
     assert exercise.promise and len(exercise.rights) >= 3
     for _, text in [*exercise.rights, *((n, text) for n, _, text in exercise.wrongs)]:
@@ -112,7 +116,7 @@ def test_programs_of_test_exercises_can_be_built(name):
 
 @pytest.mark.parametrize("name", CATCHES)
 def test_wrong_programs_do_not_fail_with_name_errors(name):
-    """The solution's test calls each program. It would also catch a program that only raises a
+    """The solution's test calls each program. It would also refuse a program that only raises a
     NameError, but for the wrong reason.
     """
     exercise, space = EXERCISES[name], {}

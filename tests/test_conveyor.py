@@ -1,4 +1,6 @@
-"""The conveyor: laws of its trips, and comparisons with formulas and a simple second program."""
+"""The conveyor: laws that its trips obey, and comparisons with formulas and with a second, simple
+program.
+"""
 
 from math import acos, asin, atan2, ceil, floor, hypot, sqrt
 
@@ -22,7 +24,7 @@ WAYS = (
         [SPEED] * 3,
     )
 )
-LINES = [  # spread, belt speed in mm/s, arms, metres between them, first come, seed
+LINES = [  # spread, belt speed in mm/s, number of arms, metres between them, first come, seed
     (0.0, 120, 1, 1.0, False, 8),
     (0.5, 230, 3, 0.8, False, 8),
     (0.5, 130, 2, 1.0, True, 1),
@@ -72,7 +74,7 @@ def test_different_seeds_give_different_orders():
 
 
 def posture(point):
-    """Joint values from the triangle of the levers, with `math` alone."""
+    """Joint values from the triangle of the levers, computed with `math` alone."""
     x, y, z = point
     l1, l2, rho, d = 0.5, 0.4, hypot(x, y), hypot(x, y, z)
     return (
@@ -91,13 +93,14 @@ def seconds(point):
 def test_objects_are_picked_inside_the_window_of_their_arm(line):
     offsets, v, pitch, trips, _ = line
     for k, one in enumerate(trips):
-        y = WINDOW[0] - offsets[one.objects] + v * one.meets  # carried there by the belt
+        # the position to which the belt has carried the object
+        y = WINDOW[0] - offsets[one.objects] + v * one.meets
         assert (y >= WINDOW[0] + k * pitch - 1e-9).all()
         assert (y <= WINDOW[-1] + k * pitch + 1e-9).all()
         assert np.allclose(y - k * pitch, WINDOW[one.places], rtol=0, atol=1e-9)
 
 
-def test_arms_do_not_leave_before_they_are_free(line):
+def test_arms_do_not_start_a_trip_before_the_previous_one_ends(line):
     _, _, _, trips, _ = line
     assert max(WAYS) == pytest.approx(seconds(PLACES[-1]))
     for one in trips:
@@ -115,19 +118,21 @@ def test_each_object_is_picked_once_or_missed_by_all_arms(line):
     assert len(set(taken.tolist())) == len(taken) <= COUNT
     more = serve(offsets, v, WINDOW, WAYS, arms=9, pitch=pitch, first_come=first_come)
     assert sorted(np.concatenate([one.objects for one in more]).tolist()) == list(range(COUNT))
-    for one, same in zip(trips, more, strict=False):  # an arm is not affected by those after it
+    for one, same in zip(trips, more, strict=False):  # an arm is not affected by the arms after it
         assert (one.objects == same.objects).all() and (one.meets == same.meets).all()
 
 
-def test_next_arm_picks_objects_left_by_the_previous_arm(line):
-    """Three arms once shared one clock, and arm 2 took object 4 while it was still at arm 1."""
+def test_next_arm_picks_only_objects_that_have_left_the_previous_window(line):
+    """Three arms once shared one clock, and arm 2 picked object 4 while the object was still at arm
+    1.
+    """
     offsets, v, pitch, trips, _ = line
     for k, one in enumerate(trips[1:], 1):
         left_the_window = (offsets[one.objects] + (k - 1) * pitch + WINDOW[-1] - WINDOW[0]) / v
         assert (one.meets >= left_the_window - 1e-9).all()
 
 
-def test_larger_pitch_only_delays_picks(line):
+def test_larger_distance_between_arms_only_delays_picks(line):
     offsets, v, pitch, trips, first_come = line
     farther = serve(
         offsets, v, WINDOW, WAYS, arms=len(trips), pitch=pitch + 0.6, first_come=first_come
@@ -137,8 +142,8 @@ def test_larger_pitch_only_delays_picks(line):
         assert np.allclose(later.meets - one.meets, k * 0.6 / v, rtol=0, atol=1e-9)
 
 
-def test_greedy_rule_matches_a_simple_program(line):
-    """Try every remaining object and every place for every trip."""
+def test_greedy_rule_matches_a_brute_force_search(line):
+    """The search tries every remaining object and every place for every trip."""
     offsets, v, pitch, trips, first_come = line
     left = list(range(COUNT))
     for k, one in enumerate(trips):
@@ -160,8 +165,8 @@ def test_greedy_rule_matches_a_simple_program(line):
 
 
 def test_arm_with_one_place_picks_every_kth_evenly_spaced_object():
-    """Without a window that gives it time, an arm with the cycle time c takes every
-    ceil(c v / g)-th object.
+    """An arm whose window is a single place and whose cycle time is c picks every ceil(c v / g)-th
+    object.
     """
     for v in (0.05, 0.1, 0.13, 0.29, 0.4):
         (one,) = serve(spaced(COUNT, GAP), v, [0.0], [0.6])
@@ -173,11 +178,11 @@ def test_arm_with_one_place_picks_every_kth_evenly_spaced_object():
 @pytest.mark.parametrize("spread", [0.0, 0.5, 1.0])
 @pytest.mark.parametrize("first_come", [False, True])
 def test_unlimited_window_allows_one_pick_per_cycle(spread, first_come):
-    """If every place is w seconds away, v / g objects per second come and at most 1 / (2 w) are
-    taken.
+    """If every place is w seconds away, v / g objects arrive per second and at most 1 / (2 w) are
+    picked.
     """
     way, v = 0.6, 0.4
-    assert v / GAP > 1 / (2 * way)  # more objects than the arm can take
+    assert v / GAP > 1 / (2 * way)  # more objects arrive than the arm can pick
     window = np.linspace(0, 100, 500)
     (one,) = serve(spaced(COUNT, GAP, spread), v, window, 0 * window + way, first_come=first_come)
     assert sorted(one.objects.tolist()) == list(range(COUNT))  # no object leaves the window
@@ -192,7 +197,7 @@ def test_unlimited_window_allows_one_pick_per_cycle(spread, first_come):
 
 @pytest.mark.parametrize("seed", range(4))
 def test_picking_at_one_place_with_uneven_gaps_matches_a_simple_loop(seed):
-    """Objects that come while the arm is away are missed."""
+    """Objects that arrive while the arm is away are missed."""
     offsets, v, way = spaced(COUNT, GAP, 1.0, seed=seed), 0.2, 0.5
     (one,) = serve(offsets, v, [0.0], [way])
     free, taken = 0.0, []
@@ -203,7 +208,7 @@ def test_picking_at_one_place_with_uneven_gaps_matches_a_simple_loop(seed):
     assert one.objects.tolist() == taken and 0.2 < len(taken) / COUNT < 0.9
 
 
-def test_number_of_arms_respects_the_lower_bound():
+def test_number_of_arms_needed_is_at_least_the_lower_bound():
     for spread, v in ((0.0, 300), (0.5, 200), (1.0, 250)):
         offsets = spaced(COUNT, GAP, spread) + 1.0
         count = next(
@@ -213,11 +218,13 @@ def test_number_of_arms_respects_the_lower_bound():
             == COUNT
         )
         assert count >= floor(2 * WAYS.min() * v * mm / GAP) + 1
-        assert spread or count == 3  # equal gaps need only the rounded-up bound here
+        assert spread or count == 3  # with equal gaps, the rounded-up bound is enough here
 
 
-def test_uneven_spacing_loses_objects():
-    """At 120 mm/s one arm takes all evenly spaced objects, and fewer if the gaps differ more."""
+def test_uneven_spacing_makes_an_arm_miss_objects():
+    """At 120 mm/s one arm picks all evenly spaced objects. The more the gaps differ, the more
+    objects it misses.
+    """
     lost = [
         np.mean(
             [

@@ -43,7 +43,7 @@ def _own_trust(tmp_path, monkeypatch):
 
 
 def notebook(text, shown="still"):
-    """A small lab that says `text`; `shown` is the output of its player."""
+    """A small lab that contains `text`; `shown` is the output of its player."""
     html = {"text/html": [f"<script>{shown}</script>"], "text/plain": ["player"]}
     output = {"output_type": "display_data", "data": html, "metadata": {}}
     cells = [
@@ -81,7 +81,7 @@ def cells(content):
 
 
 def said(path, content):
-    """The relevant content of a file: its cells, or its bytes."""
+    """The content of a file that must be preserved: its cells, or its bytes."""
     return (path.endswith(".ipynb") and str(cells(content))) or content
 
 
@@ -172,9 +172,9 @@ class History:
     mine       [path, bytes] that the student wrote and has not changed or deleted since; the path
                is None while only the next copy can restore it (after a save during a killed copy)
     untouched  paths of labs that the student has not changed, whether run or not
-    offered    lab -> the content that was last handed out; several if a copy was interrupted
-    outputs    lab -> the bytes that were last handed out, if that is certain
-    links      the student's links -> their targets
+    offered    for each lab, the content that was last handed out; several if a copy was interrupted
+    outputs    for each lab, the bytes that were last handed out, if they are known for certain
+    links      for each link of the student, its target
     """
 
     def __init__(self, seed, top):
@@ -355,7 +355,7 @@ class History:
     # Copies
 
     def copies(self):
-        """Make an undisturbed copy, and check what must be true after it."""
+        """Make an undisturbed copy, and check the laws that must hold after it."""
         before, laid_before = self.files(), {p: self.offered.get(p, {None}) for p in self.labs()}
         outcomes = copy(self.folder, self.source)
         assert not [o for o in outcomes if o.what == "failed"], outcomes
@@ -376,25 +376,27 @@ class History:
             here = after.get(path)
             sides = self._sides(path, after)
             if path in self.untouched:  # even if an interrupted copy has moved it
-                assert here and said(path, here) == says, f"{path}: unchanged, but not the newest"
+                assert here and said(path, here) == says, (
+                    f"{path}: the student did not change it, but it is not the newest version"
+                )
                 if self.outputs.get(path) not in (None, newest):
                     assert path.endswith(".json") or json.loads(here) == laid(newest)
             elif path in mine or self._strange(path):
                 beside = [said(path, after[side]) for side in sides]
-                assert says in beside or not newer, f"{path}: no newer lab next to it"
+                assert says in beside or not newer, f"{path}: there is no newer lab next to it"
             elif not os.path.lexists(self.folder / path):
-                assert not newer and path not in before, f"{path} does not come back"
+                assert not newer and path not in before, f"{path} was not restored"
             elif path not in before:
-                assert not same, f"{path} was deleted and came back unchanged"
+                assert not same, f"{path} was deleted, but the same version was restored"
                 if said(path, here) == says:
                     self.untouched.add(path)
-                else:  # restored after a killed copy; the student has since deleted theirs
+                else:  # restored after a killed copy; the student has since deleted the file
                     assert "unsure" in laid_before[path] and b"student" in here
                     self.mine.append([path, here])
             for side in sides:
                 if side not in mine:
                     self.untouched.add(side)
-                    assert said(path, after[side]) == says, f"{side} is not the newest"
+                    assert said(path, after[side]) == says, f"{side} is not the newest version"
             self.offered[path], self.outputs[path] = {says}, newest
         for outcome in outcomes:
             assert outcome.says or outcome.what == "same"
@@ -408,7 +410,7 @@ class History:
         for path, content in self.mine:
             if path.endswith(".ipynb") and b"student" in content and cells(content):
                 assert not trusted(self.folder / path, self.notary), (
-                    f"{path} is the student's, but was signed"
+                    f"{path} is the student's work, but was signed"
                 )
 
     def interrupted(self):
@@ -421,9 +423,9 @@ class History:
         self._unsure()
 
     def meets_a_save(self):
-        """Make a copy while the student saves the file that it is about to replace: into the file,
-        as a new file in its place, or in two halves; once or twice. Sometimes the copy is also
-        killed.
+        """Make a copy while the student saves the file that the copy is about to replace. The
+        student writes into the file, replaces it with a new one, or writes it in two halves, once
+        or twice. Sometimes the copy is also killed.
         """
         mine = [m[0] for m in self.mine]
         path = self.random.choice([p for p in self.labs() if p not in mine] or [None])
@@ -474,7 +476,7 @@ class History:
         if saved:
             self._forget(path)
             here = self._plain(path) and self._read(path) == saved[0]
-            assert here or writes.end, f"{path}: the file that the student saved has moved"
+            assert here or writes.end, f"{path}: the file that the student saved was moved"
             self.mine.append([path if here else None, saved[0]])
         self._unsure()
 
@@ -533,7 +535,7 @@ class History:
         return sorted(p.relative_to(self.source).as_posix() for p in found)
 
     def files(self, hidden=False):
-        """Path -> bytes of the student's files; targets of links are not counted twice."""
+        """The bytes of the student's files by path; targets of links are not counted twice."""
         found = {}
         for top, _, names in os.walk(self.folder):
             for path in (Path(top, name) for name in names):
@@ -637,7 +639,7 @@ def test_no_work_is_lost_on_a_file_system_without_links(seed, tmp_path, monkeypa
         raise PermissionError(1, "Operation not permitted")
 
     monkeypatch.setattr(os, "link", link)
-    # without links, a save between the check and the move cannot be noticed
+    # without links, a save between the check and the move cannot be detected
     monkeypatch.setattr(History, "meets_a_save", History.copies)
     History(seed, tmp_path).run(steps=25)
 
@@ -660,7 +662,7 @@ class Class:
         place.write_bytes(written(notebook(f"{name} {says}") if "ipynb" in name else says))
 
     def copy(self):
-        """Copy the labs; return path -> outcome for all files that were not left as they were."""
+        """Copy the labs, and return the outcome by path for all files that were changed."""
         return {o.path: o.what for o in copy(self.folder, self.labs) if o.what != "same"}
 
     def says(self, name):
@@ -710,7 +712,7 @@ def test_running_a_lab_does_not_count_as_a_change():
     assert len({digest, *digests}) == 1 + len(digests)
 
 
-def test_outcomes_match_the_files(school, capsys):
+def test_reported_outcomes_match_the_files(school, capsys):
     command = ["copy", str(school.folder), "--from", str(school.labs)]
     assert main(command) == 0
     assert capsys.readouterr().out == f"{school.folder}: nothing new; 3 unchanged\n"
@@ -721,15 +723,15 @@ def test_outcomes_match_the_files(school, capsys):
         school.newer(name, "second")
     assert main(command) == 0
     assert capsys.readouterr().out.splitlines() == [
-        "tasks/task.json: no longer a lab; the file stays",
-        "one.ipynb: yours stays; the newer version is one.new.ipynb",
+        "tasks/task.json: no longer a lab; the file is kept",
+        "one.ipynb: your version is kept; the newer one is one.new.ipynb",
         "three.ipynb: new",
         "two.ipynb: restored, since there is a newer version",
         f"{school.folder}: 2 new, 1 kept; 0 unchanged",
     ]
     assert school.says("one.ipynb") == "# mine" and school.says("tasks/task.json") == "first"
     assert school.says("one.new.ipynb") == "# one.ipynb second"
-    # the newer lab next to it is replaced, unless the student has changed that one, too
+    # the newer lab next to it is replaced, unless the student has changed that lab, too
     for says, beside in (("third", "one.new.ipynb"), ("fourth", "one.new2.ipynb")):
         school.newer("one.ipynb", says)
         assert school.copy() == {"one.ipynb": "kept", "tasks/task.json": "gone"}
@@ -831,7 +833,7 @@ def test_full_disk_is_reported_and_the_next_copy_succeeds(school, capsys):
 
 
 def test_files_written_before_the_disk_is_full_are_reported(school, monkeypatch):
-    """Whichever file is the last that fits on the disk, exactly the reported files exist."""
+    """Exactly the reported files exist, whichever file is the last to fit on the disk."""
     write, names = copies.write, ("new.ipynb", "one.ipynb", "two.ipynb")
     for name in names:
         school.newer(name, "second")
@@ -938,7 +940,7 @@ def test_unusable_folders_are_refused_with_a_reason(school, tmp_path, capsys, mo
     assert "Permission denied" in refused(tmp_path / "new", school.labs)
 
 
-def test_missing_nbformat_is_reported_with_the_install_command(school, monkeypatch, capsys):
+def test_error_for_missing_nbformat_contains_the_install_command(school, monkeypatch, capsys):
     school.newer("one.ipynb", "second")
     monkeypatch.setitem(sys.modules, "nbformat", None)
     assert main(["copy", str(school.folder), "--from", str(school.labs)]) == 1
@@ -953,10 +955,12 @@ def test_labs_are_copied_even_if_they_cannot_be_trusted(school, monkeypatch, cap
     )
     assert main(["copy", str(school.folder), "--from", str(school.labs)]) == 1
     assert "still pictures: 'no rights'" in capsys.readouterr().err
-    assert school.says("one.ipynb").endswith("second"), "a still picture is better than no lab"
+    assert school.says("one.ipynb").endswith("second"), (
+        "the lab must be copied, even if it can only show still pictures"
+    )
 
 
-def test_simultaneous_copies_do_no_harm(school):
+def test_simultaneous_copies_lose_nothing(school):
     with copies.alone(school.folder / ".robokin" / "lock"):
         with pytest.raises(ValueError, match="another process is using it"):
             school.copy()
@@ -993,7 +997,7 @@ def test_copied_labs_are_valid_and_trusted(tmp_path):
 
 
 def test_copied_lab_works_when_opened_and_is_not_marked_as_changed(browser, jupyter, monkeypatch):
-    """Without running a cell, the player plays and JupyterLab has nothing to save."""
+    """The player plays before any cell has run, and JupyterLab has nothing to save."""
     monkeypatch.setenv("JUPYTER_DATA_DIR", jupyter.environment["JUPYTER_DATA_DIR"])
     copy(jupyter.labs / "student")
     page = browser.new_page()

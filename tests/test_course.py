@@ -1,5 +1,5 @@
-"""The engine of the course: verdicts on answers of every kind, for exercises defined here, and the
-isolation of answers. The exercises of each lab have their own test file.
+"""The course engine: verdicts on answers of every kind, for exercises that are defined here, and
+the isolation of answers. The exercises of each lab have their own test file.
 """
 
 import _thread
@@ -115,8 +115,8 @@ def my_test(program):
 
 
 def made(text, number="1", title="a pose", **code):
-    """An exercise from a teacher's files: `text` is its Markdown below the hints, `code` its
-    Python.
+    """An exercise from a teacher's files: `text` is the Markdown below the hints, and `code` is the
+    Python file.
     """
     words = WORDS.format(number=number, title=title)
     return book.made(markdown.exercise("made.md", words + text), code)
@@ -286,14 +286,14 @@ def test_endless_loop_is_reported_when_its_cpu_time_is_up(answer, monkeypatch):
 
 @pytest.fixture
 def _interrupts():
-    """As in a kernel, Ctrl+C raises KeyboardInterrupt, regardless of earlier tests."""
+    """Ctrl+C raises KeyboardInterrupt, as in a kernel, regardless of earlier tests."""
     before = signal.signal(signal.SIGINT, signal.default_int_handler)
     yield
     signal.signal(signal.SIGINT, before)
 
 
 @pytest.mark.usefixtures("_interrupts")
-def test_interrupt_by_the_user_is_passed_on():
+def test_interrupt_by_the_user_reaches_the_caller():
     before = _thread._count()
 
     def interrupted(height, angle):
@@ -301,10 +301,10 @@ def test_interrupt_by_the_user_is_passed_on():
         while True:
             height += 1
 
-    for _ in range(30):  # an interrupt can reach the caller anywhere
+    for _ in range(30):  # an interrupt can reach the caller at any line
         with pytest.raises(KeyboardInterrupt):
             check("made.1", interrupted)
-        until(lambda: _thread._count() == before, "a thread is left")
+        until(lambda: _thread._count() == before, "a thread is left over")
 
     def raises(height, angle):
         raise KeyboardInterrupt
@@ -367,7 +367,7 @@ def test_many_slow_cases_are_reported_together(monkeypatch):
     )
 
 
-def test_verdicts_are_the_same_without_threads_and_the_host_is_notified(monkeypatch):
+def test_verdicts_do_not_depend_on_threads_and_the_host_process_is_notified(monkeypatch):
     tried = [right, prints, lambda h, a: h / 0, lambda h, a: right(0.5, a), half_written]
     before = [check("made.1", answer) for answer in tried]
     told = []
@@ -382,7 +382,7 @@ def test_verdicts_are_the_same_without_threads_and_the_host_is_notified(monkeypa
 
 
 def test_time_limit_leaves_no_thread_behind(monkeypatch):
-    """No late exception, no redirected output, and no waiting thread remains."""
+    """There is no late exception, the output is not redirected, and no thread is waiting."""
     monkeypatch.setattr(answers, "SECONDS", 0.02)
     out, before = sys.stdout, _thread._count()
     told = set()
@@ -443,11 +443,11 @@ def test_wrong_answer_gets_the_name_of_the_mistake_that_it_matches_in_all_cases(
 def test_equivalent_mistakes_are_both_named():
     verdict = check("made.1", lambda h, a: right(0.5, a))
     assert verdict.mistake == "fixed height or fixed height, said otherwise"
-    assert "height = 2.5" in verdict.case, "the smallest case that shows it"
+    assert "height = 2.5" in verdict.case, "wanted the smallest case that shows the mistake"
     assert 0 < verdict.points < 0.5
 
 
-def test_mistake_that_agrees_in_some_cases_is_not_named():
+def test_mistake_that_matches_only_in_some_cases_is_not_named():
     def sometimes(height, angle):
         return right(height, angle) if angle > 0 else right(0.1, angle)
 
@@ -471,8 +471,8 @@ def inside(lab, mistakes=""):
     lab.exercises["4"] = function(program, lambda rng: cases, mistakes)
 
 
-def test_inputs_of_a_program_that_is_almost_always_true_count_as_used(lab):
-    """With only one case, most wrong programs would seem to use no input."""
+def test_inputs_count_as_used_even_if_the_result_is_almost_always_true(lab):
+    """With only one case, most wrong programs would seem not to use any input."""
     inside(lab)
     assert check("made.4", lambda x, low: low <= x <= 3).holds
     assert check("made.4", lambda x, low: x <= low + 5).mistake is None
@@ -490,7 +490,7 @@ LOW_AND_HIGH = """\
 """
 
 
-def test_two_mistakes_in_a_boolean_answer_are_named_with_caution(lab):
+def test_two_mistakes_in_a_boolean_answer_are_both_named(lab):
     inside(lab, LOW_AND_HIGH)
     assert check("made.4", lambda x, low: low - 1 <= x <= 3).mistake == "too low"
     verdict = check("made.4", lambda x, low: low - 1 <= x <= 4)
@@ -504,12 +504,14 @@ def test_two_mistakes_in_a_boolean_answer_are_named_with_caution(lab):
 def test_two_mistakes_in_a_pose_are_both_named():
     turn = Quaternion.from_angle_axis
     verdict = check("made.1", lambda h, a: Transform(turn(a, (0, 0, 1)), (0.2, 0.1, 0.5)))
-    assert verdict.mistake == "height is not used", "two pairs agree: neither is named"
+    assert verdict.mistake == "height is not used", (
+        "two pairs of mistakes match, so neither is named"
+    )
     verdict = check("made.1", lambda h, a: Transform(turn(a / deg, (0, 0, 1)), (0.2, 0.1, h)))
     assert verdict.mistake == "no tip, and degrees for radians"
 
 
-def test_nearly_correct_answer_reports_its_error(lab):
+def test_verdict_on_a_nearly_correct_answer_states_its_error(lab):
     """A mistake that does not change the correct program's results is never named, however tolerant
     `same` is.
     """
@@ -576,7 +578,7 @@ def integers(rng):
     return [(float(a), float(b)) for a in range(-2, 3) for b in range(-2, 3)]
 
 
-# slip -> (the result of a correct program, its cases, a student's wrong version)
+# For each slip: the result of a correct program, its cases, and a student's wrong version.
 WRITTEN = {
     "element-wise product": ("a @ b", matrices, lambda a, b: a * b),
     "order of a product": ("a @ b", matrices, lambda a, b: b @ a),
@@ -662,7 +664,7 @@ def test_value_is_judged_with_the_students_numbers():
     assert check("made.2", "long", who="Ada").mistake == "another kind or shape"
 
 
-def test_submitted_test_must_accept_correct_and_refuse_wrong_programs():
+def test_submitted_test_must_accept_correct_programs_and_refuse_wrong_ones():
     def good(program):
         return program(3) == 6 and program(2) == 4
 
@@ -679,7 +681,7 @@ def test_submitted_test_must_accept_correct_and_refuse_wrong_programs():
     assert not check("made.3", lambda program: ...).answered
     verdict = check("made.3", lambda program: not good(program))
     assert verdict.mistake == "True and False exchanged", (
-        "exchanged, whether or not a program raises"
+        "the verdict must be the same whether or not a program raises an error"
     )
     verdict = check("made.3", lambda program: not _quietly(good, program))
     assert verdict.mistake == "True and False exchanged" and verdict.points == 0
@@ -692,7 +694,7 @@ def _quietly(test, program):
         return False
 
 
-def test_test_that_ignores_errors_accepts_a_raising_program():
+def test_test_that_ignores_errors_accepts_a_program_that_raises_an_error():
     def passes_over(program):
         try:
             return program(3) == 6 and program(2) == 4

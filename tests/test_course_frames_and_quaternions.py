@@ -48,7 +48,7 @@ def by_the_package(table, q, part):
 
 
 @pytest.mark.parametrize("answer", [solved, row_by_row, by_the_package])
-def test_correct_views_from_the_flange_pass(answer):
+def test_correct_poses_relative_to_the_flange_pass(answer):
     assert check("frames_and_quaternions.1", answer).holds
 
 
@@ -81,7 +81,7 @@ def joined(table, q, part):
         ("d and a exchanged", lambda t, q, p: invert(flange(t[:, [0, 2, 1, 3]], q)) @ p),
     ],
 )
-def test_mistakes_in_views_from_the_flange_are_named(name, answer):
+def test_mistakes_in_poses_relative_to_the_flange_are_named(name, answer):
     verdict = check("frames_and_quaternions.1", answer)
     assert not verdict.holds and verdict.mistake == name, verdict
 
@@ -108,7 +108,7 @@ def test_camera_can_look_at_the_part_for_every_student():
         who = f"student {k}"
         eye, part = places(who)
         z = (part - eye) / np.linalg.norm(part - eye)
-        assert z[2] < 0 and np.hypot(*z[:2]) > 0.2, "the camera looks level or straight down"
+        assert z[2] < 0 and np.hypot(*z[:2]) > 0.2, "the camera looks horizontally or straight down"
         yaw, rise = np.arctan2(z[1], z[0]), np.arcsin(z[2])
         turns = [columns(z), swung(yaw - np.pi / 2, rise - np.pi / 2)]
         answers = [Transform(turn, eye) for turn in turns]
@@ -117,12 +117,12 @@ def test_camera_can_look_at_the_part_for_every_student():
         wrong = {
             "looks away": Transform(columns(-z), eye),
             "upside down": Transform(columns(z, -1), eye),
-            "the inverse turn": Transform(turns[0].inverse(), eye),
-            "the part's place for the camera's": Transform(turns[0], part),
+            "the inverse rotation": Transform(turns[0].inverse(), eye),
+            "the camera is at the part": Transform(turns[0], part),
             "mm for m": Transform(turns[0], 1000 * eye),
             "seen from the base": Transform(columns(part / np.linalg.norm(part)), eye),
-            "the base, seen from the camera": Transform(turns[0], eye).inverse(),
-            "not turned": Transform(Quaternion.identity(), eye),
+            "the inverse pose": Transform(turns[0], eye).inverse(),
+            "not rotated": Transform(Quaternion.identity(), eye),
             "a quarter turn off": Transform(swung(yaw, rise - np.pi / 2), eye),
             "looks up": Transform(swung(yaw - np.pi / 2, -rise - np.pi / 2), eye),
         }
@@ -207,7 +207,7 @@ def test_different_axes_are_reported_with_different_numbers():
         return solved(table, q, part) @ np.diag([1, 1 + 1e-5, 1, 1])
 
     told = check("frames_and_quaternions.1", little_off).case
-    axis, is_axis = re.search(r"axis should be \((.*)\), and is \((.*)\)", told).groups()
+    axis, is_axis = re.search(r"axis should be \((.*)\), but is \((.*)\)", told).groups()
     assert axis != is_axis
 
 

@@ -1,4 +1,6 @@
-"""Lab 02: correct answers pass, mistakes are refused and named, and predictions are recomputed."""
+"""The exercises and predictions of lab 02: correct answers pass, mistakes are refused and named,
+and the answers to the predictions are recomputed.
+"""
 
 import re
 
@@ -22,7 +24,7 @@ FOUR = Transform(turned(180 * deg, Y), np.array([720, 0, 287]) * mm)
 
 
 def by_chain(q, length, turn):
-    "The chain as in the lab, with lists and the gripper in two steps."
+    "The chain of the lab, written with lists and with the gripper in two steps."
     steps = [
         Transform(turned(q[0], Z), [0, 0, 0.352]),
         Transform(turned(q[1], -Y), [0.070, 0, 0]),
@@ -39,7 +41,7 @@ def by_chain(q, length, turn):
 
 
 def by_joint_6(q, length, turn):
-    "A rotation about the flange's z axis only changes joint 6."
+    "A program that uses the fact that a rotation about the flange's z axis changes only joint 6."
     more = q.copy()
     more[5] += turn
     flange = IRB140.fk(more)
@@ -102,7 +104,7 @@ def test_poses_with_four_solutions_pass(ahead, side):
     assert check(POSE, pose).holds
 
 
-def test_solutions_past_a_limit_count_too():
+def test_solutions_outside_the_limits_count_too():
     pose = Transform(turned(170 * deg, X), np.array([720, 0, 100]) * mm)
     assert not within(IRB140, IRB140.ik(pose)).all(axis=1).sum() == 4
     assert check(POSE, pose).holds
@@ -139,7 +141,7 @@ def test_answers_that_are_not_poses_are_reported(answer):
     assert check(POSE, answer).mistake == "another kind or shape"
 
 
-def test_pose_explorer_knows_the_goal():
+def test_pose_explorer_contains_the_number_of_solutions_wanted():
     task = pose_explorer(POSE).data["task"]
     assert task["wanted"] == 4 and "{count}" in task["open"]
 
@@ -240,12 +242,12 @@ def test_mistakes_in_designs_are_named():
     assert check(DESIGN, lists, who="anna").holds
 
 
-def test_message_about_a_limit_contains_time_joint_and_excess():
+def test_message_about_a_limit_states_the_time_the_joint_and_the_excess():
     says = " ".join(check(DESIGN, design("anna") | {"flags": (1, 1, 1)}, who="anna").says)
     assert re.search(r"Joint 1 is past its limit of −?-?180° by \d+\.\d° at t = \d\.\d\d s", says)
 
 
-# --- Keys of the predictions ----------------------------------------------------------------------
+# --- Answers to the predictions -------------------------------------------------------------------
 
 
 def key(name):
@@ -253,36 +255,36 @@ def key(name):
 
 
 def jacobian(q, k, point=(0, 0, 0)):
-    "The speed of a flange point when joint k turns, computed from its axis, not by differences."
+    "The speed of a flange point when joint k turns, from the joint's axis, without differences."
     frame = IRB140.frames(q)[k + 1]
     axis = frame.rotation @ IRB140.links[k].axis if k < 5 else IRB140.fk(q).rotation @ Z
     return np.linalg.norm(np.cross(axis, IRB140.fk(q) @ point - frame.translation))
 
 
-def test_p1_agrees_with_the_joint_axes():
+def test_answer_to_prediction_1_agrees_with_the_joint_axes():
     still = [k + 1 for k in range(6) if jacobian(np.zeros(6), k) < 1e-12]
     assert still == [4, 6] and "joints 4 and 6" in filled(LAB.predictions["p1"])[1][key("p1")].text
 
 
-def test_p2_agrees_with_the_joint_axes():
+def test_answer_to_prediction_2_agrees_with_the_joint_axes():
     q = np.random.default_rng(2).uniform(*IRB140.limits.T)
     assert max(jacobian(q, k, (0, 0, -0.065)) for k in (3, 4, 5)) < 1e-12 and key("p2") == 2
 
 
-def test_p3_agrees_with_the_plane_of_the_arm():
+def test_answer_to_prediction_3_agrees_with_the_plane_of_the_arm():
     text = filled(LAB.predictions["p3"])[1][key("p3")].text
     q1 = float(text.rstrip("°").replace("−", "-")) * deg
     front = np.arctan2(-230.94, 400)
     assert abs(abs(q1 - front) - np.pi) < 1e-3
 
 
-def test_p4_agrees_with_half_turns_of_the_wrist():
+def test_answer_to_prediction_4_agrees_with_half_turns_of_the_wrist():
     text = filled(LAB.predictions["p4"])[1][key("p4")].text
     wrist = [float(x.strip("°").replace("−", "-")) for x in text.split(", ")]
     assert wrist == [25 - 180, -35, -50 + 180]
 
 
-def test_p5_agrees_with_the_distance_from_the_shoulder():
+def test_answer_to_prediction_5_agrees_with_the_distance_from_the_shoulder():
     for shoulder, end in ((0.07, "last"), (-0.07, "first")):
         xs = np.arange(250, 900)
         poses = [FACTS["pull"](x * mm) for x in xs]
@@ -292,7 +294,7 @@ def test_p5_agrees_with_the_distance_from_the_shoulder():
     assert key("p5") == 0
 
 
-def test_p6_agrees_with_the_jacobian():
+def test_answer_to_prediction_6_agrees_with_the_jacobian():
     columns = [
         [*np.cross(e, IRB140.fk(np.zeros(6)).translation - p), *e]
         for e, p in (
@@ -304,21 +306,21 @@ def test_p6_agrees_with_the_jacobian():
     assert np.linalg.matrix_rank(columns) == 2 and key("p6") == 3
 
 
-def test_p7_agrees_with_the_limits():
+def test_answer_to_prediction_7_agrees_with_the_limits():
     rows = IRB140.ik(FACTS["task_1"]()[2])[:, 0]
     low, high = IRB140.limits.T
     past = ((rows > high + 1e-9) | (rows < low - 1e-9)).any(axis=1)
     assert past[:673].all() and not past[673:].any() and key("p7") == 2
 
 
-def test_p8_equals_a_full_turn_per_time_step():
+def test_answer_to_prediction_8_is_a_full_turn_per_time_step():
     facts = LAB.predictions["p8"].facts()
     for name, step in (("coarse", 0.01), ("fine", 0.005)):
         assert facts[name] == pytest.approx(2 * np.pi / step, rel=1e-3)
     assert key("p8") == 2
 
 
-def test_p9_agrees_with_the_law_of_cosines():
+def test_answer_to_prediction_9_agrees_with_the_law_of_cosines():
     a, b, d = 0.38, 0.35, 0.1
     angle = np.arccos((b**2 + d**2 - a**2) / (2 * b * d))
     assert angle > np.pi / 2 and key("p9") == 3
@@ -326,10 +328,11 @@ def test_p9_agrees_with_the_law_of_cosines():
     facts = LAB.predictions["p9"].facts()
     assert facts["obtuse"] == pytest.approx(angle / deg)
     assert facts["acute"] == pytest.approx(180 - angle / deg)
-    # the whole triangle turns about the shoulder: the wrist centre moves d / b times as far
+    # the whole triangle rotates about the shoulder: the wrist centre moves d / b times as far as
+    # the elbow
     assert facts["miss"] == pytest.approx(chord * d / b / mm)
 
 
-def test_p10_agrees_with_a_direct_count():
+def test_answer_to_prediction_10_agrees_with_a_direct_count():
     assert [q for q in range(-400, 401) if (q - 30) % 360 == 0] == [-330, 30, 390]
     assert key("p10") == 2

@@ -1,5 +1,5 @@
 """The exercises and predictions of lab 03: correct answers in every style pass, mistakes are named,
-and the key of every prediction is computed by another method.
+and the answer to every prediction is computed by another method.
 """
 
 import json
@@ -140,7 +140,7 @@ def _by_rounding(q0, q1, s):
 
 
 @pytest.mark.parametrize("answer", [_by_nearest, _by_loops, _by_recursion, _by_masks, _by_rounding])
-def test_short_paths_found_by_other_methods_pass(answer):
+def test_shortest_ptp_motions_found_by_other_methods_pass(answer):
     verdict = check("irb140_motion.2", answer)
     assert verdict.holds, verdict
 
@@ -165,7 +165,7 @@ def test_too_few_turns_are_reported(most, limited, name):
     assert not verdict.holds and verdict.mistake.startswith(name), verdict
 
 
-def test_value_slightly_off_is_called_nearly_right():
+def test_slightly_wrong_value_is_called_nearly_right():
     D = 1503 * mm  # typed with too few digits
 
     def typed(distance, corner):
@@ -185,7 +185,7 @@ def test_correct_motion_satisfies_its_laws():
         assert np.allclose(pose, wanted, rtol=0, atol=1e-9)
         low, high = IRB140.limits.T
         assert ((low - 1e-9 <= end) & (end <= high + 1e-9)).all()
-        for k in range(-4, 5):  # no other value inside the limits is nearer
+        for k in range(-4, 5):  # no other value inside the limits is nearer to the start
             other = q1 + 2 * np.pi * k
             inside = (low <= other) & (other <= high)
             assert (~inside | (abs(other - q0) >= abs(end[1] - q0) - 1e-9)).all()
@@ -304,12 +304,12 @@ def _by_summing_up(speeds):
 @pytest.mark.parametrize(
     "test", [_by_one_sine, _by_assertions, _by_several_motions, _by_summing_up]
 )
-def test_fair_tests_in_other_styles_pass(test):
+def test_correct_tests_in_other_styles_pass(test):
     verdict = check("irb140_motion.3", test)
     assert verdict.holds, verdict
 
 
-def test_correct_programs_keep_their_promise_and_wrong_ones_do_not():
+def test_correct_programs_are_accurate_and_constant_tests_do_not_pass():
     exercise = LAB.exercises["3"]
     rng = np.random.default_rng(2)
     for _ in range(5):
@@ -363,7 +363,7 @@ def test_differentiate_is_correct_only_after_unwrapping():
     assert re.search("unwrap", LAB.exercises["3"].rights[0][0])
 
 
-# --- Keys of the predictions ----------------------------------------------------------------------
+# --- Answers to the predictions -------------------------------------------------------------------
 
 NOTEBOOK = json.loads((NOTEBOOKS / "03_irb140_motion.ipynb").read_text(encoding="utf-8"))
 CELLS = {cell["id"]: cell for cell in NOTEBOOK["cells"]}
@@ -381,7 +381,7 @@ def _line_speeds(a, b, x, seconds):
     return np.linalg.solve(IRB140.jacobian(IRB140.ik(a.lerp(b, x))[ROW]), twist)
 
 
-def test_prediction_keys_agree_with_other_methods():
+def test_answers_to_predictions_agree_with_other_methods():
     speeds = abs(np.array([_line_speeds(LEFT, RIGHT, x, 20) for x in np.arange(0, 1, 0.02)]))
     assert (speeds.max(axis=0) > 1.1 * speeds.min(axis=0)).all()
     assert _right("p1") == "None of them."

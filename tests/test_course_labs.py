@@ -6,6 +6,7 @@ import json
 import random
 import re
 
+import lab_sizes
 import nbformat
 import numpy as np
 import pytest
@@ -20,17 +21,21 @@ from robokin.course.predictions import shown
 from robokin.course.questions import chosen_option, filled
 
 LABS = {name: next(NOTEBOOKS.glob(f"*_{name}.ipynb")) for name in book.labs()}
-EXERCISES = [f"{lab}.{n}" for lab in book.labs() for n in book.lab(lab).exercises]
-PREDICTIONS = [f"{lab}.{n}" for lab in book.labs() for n in book.lab(lab).predictions]
+EXERCISES = [name for lab in book.labs() for name in book.ids(lab, "exercises")]
+PREDICTIONS = [name for lab in book.labs() for name in book.ids(lab, "predictions")]
 KINDS = {e: type(book.find(e, "exercises")) for e in EXERCISES}
 FUNCTIONS = [e for e in EXERCISES if KINDS[e] is Function]
 CATCHES = [e for e in EXERCISES if KINDS[e] is Catch]
 every_lab = pytest.mark.parametrize("lab", book.labs())
-SMALL = "start_here"  # a ten-minute lab with one exercise and one prediction
+SHORT = ("start_here", "rotor", "conveyor")  # labs of at most half an hour, with one exercise
 
 
 def cells(lab):
     return json.loads(LABS[lab].read_text(encoding="utf-8"))["cells"]
+
+
+def words_of(lab):
+    return "\n\n".join("".join(c["source"]) for c in cells(lab) if c["cell_type"] == "markdown")
 
 
 def code(lab):
@@ -38,12 +43,21 @@ def code(lab):
 
 
 @every_lab
-def test_lab_asks_its_predictions_and_exercises_in_order(lab):
+def test_lab_contains_its_predictions_and_exercises_in_order(lab):
     asked = re.findall(r'^predict\("([\w.]+)"\)$', code(lab), re.M)
-    assert asked == [p for p in PREDICTIONS if p.startswith(f"{lab}.")]
+    assert asked == book.ids(lab, "predictions")
     checked = re.findall(r'^check\("([\w.]+)",', code(lab), re.M)
-    assert sorted(checked) == [e for e in EXERCISES if e.startswith(f"{lab}.")]
-    assert len(asked) <= 10 and len(checked) == (1 if lab == SMALL else 3)
+    assert sorted(checked) == book.ids(lab, "exercises")
+    assert len(asked) <= 10 and len(checked) == (1 if lab in SHORT else 3)
+
+
+def test_no_two_labs_ask_a_prediction_with_the_same_id():
+    assert len(set(PREDICTIONS)) == len(PREDICTIONS)
+    moved = {p for lab in book.labs() for p in book.lab(lab).moved.values()}
+    assert moved <= set(PREDICTIONS)
+    for name in moved:  # the lab that asked it first does not give its number to another one
+        first, _, number = name.partition(".")
+        assert number not in book.lab(first).predictions, name
 
 
 @every_lab
@@ -52,7 +66,7 @@ def test_exercise_titles_and_optional_predictions_match_the_lab(lab):
     text = "\n".join(sources)
     for n, exercise in book.lab(lab).exercises.items():
         assert re.search(rf"^\*\*{n}\. {re.escape(exercise.title)}[.?]?\*\*", text, re.M)
-    [more] = [k for k, each in enumerate(sources) if each.startswith("## More")]
+    [more] = [k for k, each in enumerate(sources) if each.startswith(("## More", lab_sizes.OLD))]
     later = re.findall(r'^predict\("\w+\.(\w+)"\)$', "\n".join(sources[more:]), re.M)
     assert later == [n for n, each in book.lab(lab).predictions.items() if each.optional]
 
@@ -61,7 +75,7 @@ def test_exercise_titles_and_optional_predictions_match_the_lab(lab):
 def test_every_objective_is_practised_and_named_in_the_lab(lab, monkeypatch):
     monkeypatch.setattr(course, "_verdicts", {})
     made = book.lab(lab)
-    assert len(made.objectives) == (1 if lab == SMALL else 3)
+    assert len(made.objectives) == (1 if lab in SHORT else 3)
     numbers = set(range(1, len(made.objectives) + 1))
     assert {e.objective for e in made.exercises.values()} == numbers
     kinds = {type(e) for e in made.exercises.values()}
@@ -71,15 +85,26 @@ def test_every_objective_is_practised_and_named_in_the_lab(lab, monkeypatch):
     plain = re.sub(r"[*\s]+", " ", words)
     for objective in made.objectives:
         assert objective.rstrip(".;") in plain, objective
+    if lab in SHORT[1:]:  # questions practise what no exercise does
+        listed = re.search(r"\*\*You will be able to\*\*\n\n(.*?)\n\n", words_of(lab), re.S)[1]
+        parts = re.findall(r"\((exercise 1|question in section \d)\)[;.]$", listed, re.M)
+        assert len(parts) == 3 == listed.count("\n") + 1 and "exercise 1" in parts
+        sections = re.split(
+            r"^## (?=\d)", "\n".join("".join(c["source"]) for c in cells(lab)), flags=re.M
+        )
+        assert all("predict(" in sections[int(p[-1])] for p in parts if p[0] == "q")
 
 
 @every_lab
-def test_last_cell_makes_the_report_and_your_turn_leads_to_it(lab):
+def test_last_cell_makes_the_report_and_your_turn_refers_to_it(lab):
     """The cell uses the student's name, which an earlier cell or its own first line sets."""
     sources = ["".join(c["source"]) for c in cells(lab)]
-    assert re.search(r"^report\(who\)$", sources[-1], re.M)
     end = next(k for k, text in enumerate(sources) if text.startswith("## In short"))
-    assert re.search(r"last cell", sources[end - 1].split("\n\n")[-1]), "no line about the report"
+    if lab_sizes.old(cells(lab)):  # there the last cell of "Your turn" makes the report
+        assert re.search(r"^report\(who\)$", sources[end - 1], re.M)
+    else:
+        assert re.search(r"^report\(who\)$", sources[-1], re.M)
+        assert "last cell" in sources[end - 1].split("\n\n")[-1], "no line about the report"
     named = re.findall(r'^who = "(.*)"$', "\n".join(sources), re.M)
     assert named == ["your name"]
     assert len(re.findall(r"\breport\(", code(lab))) == 1
@@ -87,7 +112,7 @@ def test_last_cell_makes_the_report_and_your_turn_leads_to_it(lab):
 
 @pytest.mark.parametrize("name", EXERCISES)
 def test_untouched_exercise_counts_as_unanswered(name):
-    lab, _, number = name.partition(".")
+    lab = book.home(name)
     kept = [
         "".join(c["outputs"][0]["data"]["text/plain"])
         for c in cells(lab)
@@ -156,7 +181,7 @@ def of_the_solution(name):
 
 @pytest.mark.parametrize("name", CATCHES)
 def test_no_test_passes_by_a_trick(name, monkeypatch):
-    """The tricks: counting calls, ignoring errors, returning nothing, never returning False."""
+    """The tricks are: counting calls, ignoring errors, returning nothing, never returning False."""
     right = of_the_solution(name)
     exercise = book.find(name, "exercises")
     many = len(exercise.rights) + len(exercise.wrongs) + 1
@@ -209,7 +234,7 @@ def test_prediction_has_one_correct_option_and_each_option_has_a_reason(name):
     asked = question + "".join(option.text for option in options)
     assert not re.search(r"\bnan\b|\bjust\b|\bsimply\b", asked)
     said = asked + "".join(option.reason + option.second for option in options)
-    assert not re.search(r"[{}$\\]", said), "an unfilled blank or a formula"
+    assert not re.search(r"[{}$\\]", said), "the text contains an unfilled blank or a formula"
     for k, option in enumerate(options):
         if typed:  # the values of all options are distinguishable
             assert chosen_option(prediction, options, right, float(option.text)) == k
@@ -218,7 +243,7 @@ def test_prediction_has_one_correct_option_and_each_option_has_a_reason(name):
 
 @pytest.mark.parametrize("name", PREDICTIONS)
 def test_reasons_of_predictions_do_not_appear_in_the_lab(name):
-    lab, _, number = name.partition(".")
+    lab = book.home(name)
     _, options, right = filled(book.find(name, "predictions"))
     open_words = []
     for cell in cells(lab):
@@ -256,6 +281,8 @@ def test_endless_answer_is_reported_and_the_kernel_survives():
 
 @pytest.mark.parametrize("name", ["answers", "", "..", None, 7, "irb140_motion.1"])
 def test_names_that_are_not_labs_are_refused(name):
-    """Names of course modules are refused, too, since a name comes from a handed-in file."""
+    """Names of course modules are also refused, since the name comes from a file that was handed
+    in.
+    """
     with pytest.raises(ValueError, match="lab: wanted one of start_here, "):
         book.lab(name)

@@ -47,7 +47,7 @@ def _to_the_left(c, H):
 @pytest.mark.parametrize(
     "right", [_angle_sum, _upward, _to_the_left, lambda c, H: Outline(c).contains_point(H)]
 )
-def test_correct_inside_tests_pass_in_every_style(right):
+def test_correct_point_in_polygon_tests_pass_in_every_style(right):
     assert check("obstacle_avoidance.1", right).holds
 
 
@@ -73,8 +73,8 @@ def _returns_early(c, H):
 
 
 def _winding(c, H):
-    """The nonzero rule instead of the even-odd rule: the middle of a star drawn with a single line
-    counts as inside.
+    """A test by the nonzero rule instead of the even-odd rule: the middle of a star that is drawn
+    in one line counts as inside.
     """
     z = (c - H) @ [1, 1j]
     return abs(np.angle(np.roll(z, -1) / z).sum()) > 3
@@ -94,7 +94,7 @@ def _open_upward(c, H):
 
 
 def _by_products(c, H):
-    """Counts the crossings of the sides, except those at an end point of a side."""
+    """A test that counts the crossings of the sides, except those at an end point of a side."""
     count = 0
     for P, Q in _sides(c):
         if (P[1] - H[1]) * (Q[1] - H[1]) < 0:
@@ -115,7 +115,7 @@ def _by_products(c, H):
         (lambda c, H: (c.min(0) <= H).all() and (H <= c.max(0)).all(), "the box around it"),
     ],
 )
-def test_mistakes_in_inside_tests_are_named(wrong, named):
+def test_mistakes_in_point_in_polygon_tests_are_named(wrong, named):
     verdict = check("obstacle_avoidance.1", wrong)
     assert not verdict.holds and verdict.mistake == named
 
@@ -139,14 +139,14 @@ def test_paths_known_from_the_lab_do_not_get_past_the_bar(who):
             assert not verdict.holds and verdict.mistake, name
     assert "degrees" in check("obstacle_avoidance.2", paths["degrees"], who=who).mistake
     assert check("obstacle_avoidance.2", paths["back"], who=who).mistake == "another start"
-    # the ends keep the distance, but postures between them do not
+    # the ends of the path keep the distance, but postures between them do not
     verdict = check("obstacle_avoidance.2", paths["round both ends"], who=who)
     assert "between its ends" in verdict.mistake
 
 
 @pytest.mark.parametrize("who", ["Ada", "Jonas", "your name"])
 def test_paths_around_closely_spaced_points_get_past_the_bar(who):
-    """The hint about points at a distance h from each other is true, too."""
+    """The statement in the hint about points at a distance h from each other is also true."""
     task = variant("obstacle_avoidance", who)
     start, (first, last) = np.array(task["start"]) * deg, np.array(task["bar"])
     for count in (10, 16):
@@ -172,8 +172,8 @@ def test_path_of_strings_is_refused_and_different_numbers_print_differently():
 
 @cache
 def _tasks(count, turn, gap):
-    """(path, H, distance, whether the path keeps it); the distance differs by `gap` from the
-    smallest distance between path and H.
+    """Tuples (path, H, distance, whether the path keeps the distance). The distance differs by
+    `gap` from the smallest distance between the path and H.
     """
     rng, made = np.random.default_rng(2), []
     while len(made) < count:
@@ -194,14 +194,14 @@ def _tasks(count, turn, gap):
     "turn, gap, mistake",
     [(80, 0.004, "refuses a correct program"), (170, 0.03, "refuses a correct program")],
 )
-def test_test_that_demands_more_than_promised_is_named(turn, gap, mistake):
+def test_test_that_demands_more_than_promised_is_reported(turn, gap, mistake):
     def strict(safe):
         return all(bool(safe(path, H, d)) == truth for path, H, d, truth in _tasks(60, turn, gap))
 
     assert check("obstacle_avoidance.3", strict).mistake == mistake
 
 
-def test_test_of_first_and_last_postures_is_not_enough():
+def test_testing_only_the_first_and_last_postures_is_not_enough():
     rng, tasks = np.random.default_rng(4), []
     while len(tasks) < 80:  # the arm is nearest to H in its first or last posture
         path = rng.uniform(0.7, 2.2, (2, 3))
@@ -226,6 +226,6 @@ def test_distances_in_the_checks_match_those_of_the_package():
     assert np.allclose(lever_distances(q, [1.2, 1.3]), distances(arm, q, (1.2, 1.3)), atol=1e-12)
 
 
-def test_test_with_one_easy_task_is_not_enough():
+def test_testing_only_one_easy_task_is_not_enough():
     verdict = check("obstacle_avoidance.3", lambda safe: safe([[1, 1, 1], [2, 2, 2]], [9, 9], 0.1))
     assert not verdict.holds and verdict.mistake.startswith("accepts: ")

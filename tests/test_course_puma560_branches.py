@@ -126,7 +126,7 @@ def test_mistakes_in_speeds_are_named(answer, mistake):
         (lambda fastest: 1.02 * fastest, "the joint speed instead of the duration"),
     ],
 )
-def test_durations_get_the_expected_verdict(change, mistake):
+def test_durations_get_the_expected_verdicts(change, mistake):
     # if the greatest speed is near 1 rad/s, multiplying by it hardly changes the duration
     who = next(name for name in map(str, range(99)) if abs(lab.given(name)["fastest"] - 1) > 0.3)
     numbers = lab.given(who)
@@ -165,7 +165,7 @@ def test_messages_about_lines_do_not_reveal_the_answer(factor):
                 assert verdict.mistake == "too slow", (who, verdict)
 
 
-def test_distances_and_speeds_are_reported_as_sensible_numbers():
+def test_distances_and_speeds_are_reported_with_suitable_precision():
     names, speeds = lab.exercises["1"], lab.exercises["2"]
     for k, case in enumerate(names.cases):
         told = names.code["law"](case, "nothing", names.wanted[k])

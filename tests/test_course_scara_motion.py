@@ -1,5 +1,5 @@
 """The exercises and predictions of lab 05: correct answers in every style pass, mistakes are named,
-and the keys of the predictions are computed by another method.
+and the answers to the predictions are computed by another method.
 """
 
 import numpy as np
@@ -239,7 +239,7 @@ def test_too_few_turns_are_reported(most, name):
     assert check("scara_motion.1", few).mistake == name
 
 
-def test_message_about_a_case_gives_degrees_and_the_elbow():
+def test_message_about_a_case_states_degrees_and_the_side_of_the_elbow():
     case = check("scara_motion.1", _zero_is_negative).case
     assert "joint 2 stands at 0.0° in q0, which counts as positive" in case
     case = check("scara_motion.1", _degrees_without_limits).case
@@ -363,7 +363,7 @@ def test_mistakes_in_limit_tests_are_named(answer, word):
 
 
 @pytest.mark.parametrize("joint", [1, 2, 3])
-def test_untested_joint_is_reported_and_not_called_wrapped(joint):
+def test_verdict_names_the_joint_that_is_never_tested(joint):
     def one_left_out(q):
         q = q.copy()
         q[~np.isnan(q).any(axis=1), joint - 1] = 0.1
@@ -389,7 +389,7 @@ def test_similar_program_does_not_get_the_name_of_another_mistake(answer, name):
     assert check("scara_motion.2", answer).mistake == name
 
 
-def test_message_about_a_case_of_the_limit_test_gives_the_excess():
+def test_message_about_a_case_of_the_limit_test_states_the_excess():
     law = LAB.module("limits_kept")["law"]
     q = np.tile([0.1, 0.5, 0.2, 0.1], (3, 1))
     for joint, value, told in (
@@ -420,14 +420,15 @@ def test_every_student_has_a_feasible_blend(more):
         b, both = _least(mine)
         assert 0.05 < b < 0.45
         needed = np.sqrt(both / (more * b * mine["acceleration"]))
-        assert needed > 5  # rounding it up to a tenth of a second adds less than 2 %
+        assert needed > 5  # so that rounding up to a tenth of a second adds less than 2 %
         for duration in (needed, needed * 1.019, np.ceil(10 * needed) / 10):
             design = {"blend": more * b, "duration": duration}
             assert check("scara_motion.3", design, who=who).holds, (who, mine)
         for factor, name in ((0.99, "too fast"), (1.021, "slower than needed")):
             design = {"blend": more * b, "duration": needed * factor}
             assert check("scara_motion.3", design, who=who).mistake == name
-        # the use of heights above the table instead of above via is detected for every name
+        # for every name, the check detects heights that are measured from the table instead of from
+        # via
         over_table = mine["start_z"] + mine["goal_z"]
         assert np.sqrt(over_table / both) > 1.025
 
@@ -462,10 +463,10 @@ def test_mistakes_in_the_design_are_named():
     assert told(1.05 * b, -1) == "no such duration"
 
 
-# --- Keys of the predictions ----------------------------------------------------------------------
+# --- Answers to the predictions -------------------------------------------------------------------
 
 
-def test_prediction_keys_agree_with_other_calculations():
+def test_answers_to_predictions_agree_with_other_calculations():
     right = {name: filled(p)[1][filled(p)[2]].text for name, p in LAB.predictions.items()}
     assert right["p1"] == "Joint 3 alone." and right["p2"] == "Joint 4 alone."
     assert right["p3"] == "x and y." and right["p4"] == "On LIN alone."

@@ -1,5 +1,5 @@
 """The exercise and the prediction of lab 00: correct answers in every style pass, mistakes are
-named, and the prediction's key is computed by another method.
+named, and the answer to the prediction is computed by another method.
 """
 
 import numpy as np
@@ -40,9 +40,7 @@ def searched(seed):
 )
 def test_every_posture_that_solves_the_task_passes(answer):
     x, y, z = place(answer)
-    assert abs(x - y) <= 5 and x > 0 and abs(z - 600) <= 5, (
-        "the posture does not do what the task asks"
-    )
+    assert abs(x - y) <= 5 and x > 0 and abs(z - 600) <= 5, "the posture does not solve the task"
     verdict = check("start_here.1", answer)
     assert verdict.holds and verdict.points == 1, verdict
 
@@ -82,8 +80,10 @@ def test_missing_posture_counts_as_unanswered():
     assert "45" in solution("start_here.1")
 
 
-def test_p1_agrees_with_a_rotation_about_z():
-    """The key follows from a rotation about z, without forward kinematics of the second posture."""
+def test_answer_to_prediction_1_agrees_with_a_rotation_about_z():
+    """The answer is computed with a rotation about z, without forward kinematics of the second
+    posture.
+    """
     question, options, right = filled(book.lab("start_here").predictions["p1"])
     x, y, z = place(np.array([40, -20, -10, 0, 30, 0]) * deg)
     for number in (x, y, z):

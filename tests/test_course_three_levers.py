@@ -1,5 +1,5 @@
 """The exercises of lab 09: correct answers in different styles pass, mistakes are named, and the
-individual numbers can be solved.
+exercises can be solved with each student's own numbers.
 """
 
 import cmath
@@ -29,7 +29,7 @@ def levers(K, alpha, lengths):
 
 
 def by_complex_numbers(K, alpha, lengths):
-    """The levers in complex numbers: OB is counter-clockwise from OK, and the rest follows."""
+    """A program with complex numbers: OB is counter-clockwise from OK, and the rest follows."""
     a, b, c = (float(x) for x in lengths)
     k, KB = complex(*K), abs(b - c * cmath.exp(1j * alpha))
     if abs(k) > a + KB or abs(k) < abs(a - KB):
@@ -75,7 +75,7 @@ def angle_between(a, b, c):
 
 
 def of_the_lab(K, alpha, lengths):
-    """The lab's formulas, including np.clip, with OB in place of L."""
+    """A program with the lab's formulas, including np.clip, and with OB instead of L."""
     L, KO = lengths[0], np.hypot(*K)
     KB = 2 * L * np.sin(alpha / 2)
     gamma = angle_between(KO, L, KB) + np.arctan2(K[1], K[0])
@@ -87,7 +87,7 @@ def first_of_the_lab(K, alpha, lengths):
 
 
 def whole_arm(K, alpha, lengths):
-    """The levers, with NaN only where no alpha reaches the point."""
+    """A program that returns NaN only where no alpha reaches the point."""
     a, b, c = lengths
     KO, KB = np.hypot(*K), np.sqrt(b**2 + c**2 - 2 * b * c * np.cos(alpha))
     if not max(0, 2 * max(lengths) - sum(lengths)) <= KO <= sum(lengths):
@@ -102,7 +102,9 @@ def folded(K, alpha, lengths):
 
 
 def added(K, alpha, lengths):
-    """The levers with a wrong plus sign in the law of cosines, and beta_2 from that KB."""
+    """A program with a wrong plus sign in the law of cosines, which computes beta_2 from the
+    resulting KB.
+    """
     a, b, c = lengths
     KO, KB = np.hypot(*K), np.sqrt(b**2 + c**2 + 2 * b * c * np.cos(alpha))
     gamma = law(KO, a, KB) + np.arctan2(K[1], K[0])
@@ -116,11 +118,11 @@ def added(K, alpha, lengths):
             of_the_lab,
             "the formulas of equal levers, with OB, and clipped where there is no triangle",
         ),
-        (first_of_the_lab, "L of the lab for OB"),
+        (first_of_the_lab, "L of the lab used as OB"),
         (whole_arm, "the reach of the whole arm"),
         (folded, "beta folded below 180°"),
         (added, "the wrong sign in the law of cosines"),
-        (limited, "limits are looked at"),
+        (limited, "the limits are checked"),
         (equal_levers, "the formulas of equal levers, with OB"),
         (no_direction, "the direction of K left out"),
         (quotient, "arctan of y / x"),
@@ -206,7 +208,7 @@ def least_test(at=1e-5, limit=1e-6, plus=0.02 * deg, relative=0.0):
         (least_test(plus=0.15 * deg), "accepts: a step of 0.1°"),
     ],
 )
-def test_tolerances_of_tests_agree_with_the_promise(test, mistake):
+def test_tolerances_of_tests_must_agree_with_the_promised_accuracy(test, mistake):
     verdict = check("three_levers.2", test)
     assert verdict.holds == (mistake is None) and verdict.mistake == mistake
 
@@ -241,7 +243,7 @@ def test_individual_task_can_be_solved_but_not_greedily(who):
         ({"first": 2.4, "second": np.pi}, "gamma past its limit at the second target"),
     ],
 )
-def test_reasons_for_failing_plans_are_reported(answer, mistake):
+def test_reasons_why_plans_fail_are_reported(answer, mistake):
     verdict = check("three_levers.3", answer, who="Ada")
     assert not verdict.holds and verdict.mistake == mistake and verdict.says
 
@@ -251,7 +253,7 @@ def test_plan_of_strings_is_refused():
     assert text.mistake == "another kind or shape"
 
 
-def test_posture_slightly_off_is_reported_with_different_numbers():
+def test_slightly_wrong_posture_is_reported_with_different_numbers():
     told = check("three_levers.1", lambda *case: levers(*case) + [3e-6, 0, 0]).case
     place, off = re.search(r"gripper at \((.*)\) m, (.*) m from K", told).groups()
     assert float(off) > 0 and place.count(",") == 1
@@ -261,7 +263,7 @@ def test_posture_slightly_off_is_reported_with_different_numbers():
         side = np.arctan2(K[1], K[0])
         return [2 * side - gamma, 2 * np.pi - beta, 2 * np.pi - alpha]
 
-    assert "reaches K, too, in another posture" in check("three_levers.1", other_bend).case
+    assert "reaches K, too, but it is another posture" in check("three_levers.1", other_bend).case
 
 
 def first_and_last_angle(program):
@@ -275,8 +277,8 @@ def first_and_last_angle(program):
 
 
 def test_test_must_start_from_different_postures():
-    """A second check gives the same verdict, since each check makes new copies of the programs that
-    keep state.
+    """A second check gives the same verdict, since each check makes new copies of the stateful
+    programs.
     """
     arm, rng = three_lever(1.0), np.random.default_rng(5)
     places = rng.uniform(1.2, 2.8, 100)[:, None] * [np.cos(0.8), np.sin(0.8)]
@@ -300,12 +302,12 @@ def test_test_must_start_from_different_postures():
     assert judged(rng.uniform(0.2, 3, (100, 3))) != judged(np.ones((100, 3)))
 
 
-def test_test_must_look_at_every_angle():
+def test_test_must_check_every_angle():
     assert "beta" in check("three_levers.2", first_and_last_angle).mistake
 
 
 @pytest.mark.parametrize("share", [0.95, 0.99])
-def test_answer_that_gives_up_just_inside_the_border_is_refused(share):
+def test_answer_that_returns_nan_for_points_just_within_reach_is_refused(share):
     def far(K, alpha, lengths):
         a, b, c = lengths
         KB = np.sqrt(b**2 + c**2 - 2 * b * c * np.cos(alpha))

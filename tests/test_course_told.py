@@ -32,13 +32,13 @@ def test_rows_are_printed_with_enough_digits_to_differ():
     assert apart(2, 3, 0) == ("2", "3") and apart(-0.0001, 3, 1) == ("0.0", "3.0")
 
 
-def test_huge_and_missing_numbers_are_readable():
+def test_huge_and_missing_numbers_are_printed_readably():
     assert apart(0.5, 1.489e31, 3) == ("0.500", "1.5 · 10³¹")
     assert apart(np.nan, np.inf) == ("nan", "inf")
 
 
 @pytest.mark.parametrize("value", ["0.3", ["0.3", 1], True, [None], {}, b"1", [object()], "x", 1j])
-def test_strings_are_not_numbers(value):
+def test_values_that_are_not_numbers_are_refused(value):
     with pytest.raises((TypeError, ValueError)):
         floats(value)
 
@@ -59,7 +59,7 @@ FUNCTIONS = [
 
 
 @pytest.mark.parametrize("name", FUNCTIONS)
-def test_strings_instead_of_numbers_are_reported_as_another_kind(name):
+def test_strings_instead_of_numbers_are_reported_as_the_wrong_kind(name):
     exercise = book.find(name, "exercises")
 
     def right(*case):
@@ -92,6 +92,6 @@ def test_strings_instead_of_numbers_are_reported_as_another_kind(name):
         ("motor_synchronisation.2", {"gears": ["9", "9", "9"], "frequencies": [1, 2, 3]}),
     ],
 )
-def test_string_instead_of_a_number_in_a_design_is_reported_as_another_kind(name, answer):
+def test_string_instead_of_a_number_in_a_design_is_reported_as_the_wrong_kind(name, answer):
     verdict = check(name, answer, who="Ada")
     assert verdict.mistake == "another kind or shape" and verdict.answered

@@ -88,7 +88,7 @@ def test_slips_in_a_short_program_are_named():
     assert named >= len(SLIPS) - 6  # slips that give NaN for every tip are not explained
 
 
-def test_known_and_nearly_correct_programs_get_their_names():
+def test_known_mistakes_and_nearly_correct_programs_are_named():
     assert judged().holds
     assert judged(xr="px - u", yr="py + v", xl="px + u", yl="py - v").mistake == (
         "the sides exchanged"
@@ -123,7 +123,7 @@ def test_known_and_nearly_correct_programs_get_their_names():
         ),  # an absolute tolerance passes, even for a small arm
     ],
 )
-def test_slightly_wrong_rim_is_detected(reach, name):
+def test_slightly_wrong_limit_of_reach_is_detected(reach, name):
     def elbow(base, tip, l1, l2, side):
         dx, dy = np.subtract(tip, base)
         d2 = dx * dx + dy * dy
@@ -136,7 +136,7 @@ def test_slightly_wrong_rim_is_detected(reach, name):
     assert check("two_link_code_generation.1", elbow).mistake == name
 
 
-def test_elbow_past_the_rim_is_reported_with_different_numbers():
+def test_elbow_for_an_unreachable_tip_is_reported_with_different_numbers():
     space = {}
     exec(solution("two_link_code_generation.1"), space)
 
@@ -149,7 +149,7 @@ def test_elbow_past_the_rim_is_reported_with_different_numbers():
     assert tip != rim and not verdict.holds
 
 
-def test_test_of_elbows_must_look_at_all_four_numbers():
+def test_test_of_elbows_must_check_all_four_numbers():
     space = {}
     exec(solution("two_link_code_generation.3"), space)
     whole = space["elbows_are_right"]

@@ -17,7 +17,8 @@ TRAPS, FACTS, SHARED = (LAB.module(name) for name in ("greedy_traps", "predictio
 ARM = spbu_arm(5, 4)
 BOX = np.random.default_rng(5).uniform([-9, -9, 0], [9, 9, 9], size=(200, 3))
 POINTS = BOX[workspace(5, 4, BOX).all(axis=-1)]
-AXIS = np.array([[0, 0, 6.0], [0, 0, 3.0], [0, -9.0, 0]])  # the last point is on the border
+# the last point is on the boundary of the workspace
+AXIS = np.array([[0, 0, 6.0], [0, 0, 3.0], [0, -9.0, 0]])
 
 
 def inside(q):
@@ -279,7 +280,7 @@ def test_points_that_are_not_a_trap_are_reported(task, points, mistake):
     assert not verdict.holds and verdict.mistake == mistake, verdict
 
 
-def test_partial_loss_of_worth_is_reported():
+def test_loss_of_less_than_half_of_the_value_is_reported():
     numbers = variant("visit_and_collect", "your name") | {"worth": [3, 2, 3, 4]}
     points = np.array(turned(numbers, [0.5, -1.35, -1.5, -1.2]))
     name, says = TRAPS["trap_fault"]("worth", points, numbers)
@@ -297,13 +298,9 @@ def test_cheapest_first_collects_as_many_points_as_the_best_choice():
         assert len(greedy) == len(best)
 
 
-def test_numbers_behind_the_predictions_are_correct():
+def test_numbers_used_in_the_predictions_are_correct():
     assert FACTS["p7"]()["height"] == 3.0  # from a 3-4-5 triangle
     assert -1.017 < FACTS["p8"]()["low"] < -1.016
-    facts = FACTS["p9"]()
-    assert (facts["even"], facts["uneven"]) == (120, 90) and facts["rule"] > facts["even"]
-    assert (facts["least"], facts["greatest"]) == (80, 90)  # over other orders of the same gaps
-    assert facts["first"] == 95
     changes = FACTS["p5"]()
     beaten = ("container on axis 1", "prices", "unlike speeds", "emptied at the end")
     assert [changes[k] > 0 for k in beaten] == [1, 1, 0, 1]

@@ -1,4 +1,4 @@
-"""The distance from singularities, with all lengths divided by the same length."""
+"""The distance from singularities, computed with all lengths divided by the same length."""
 
 from types import SimpleNamespace
 
@@ -45,7 +45,7 @@ def test_total_length_is_that_of_the_stretched_chain():
 
 
 def test_product_of_two_singular_values_is_the_area_of_the_parallelogram():
-    """det J = l1 l2 sin q2, divided by the square of the reach."""
+    """The area is det J = l1 l2 sin q2, divided by the square of the reach."""
     arm = two_link(0.3, 0.5)
     q = RNG.uniform(-3, 3, (200, 2))
     wanted = 0.3 * 0.5 * abs(np.sin(q[:, 1])) / 0.8**2
@@ -77,7 +77,7 @@ def test_singular_values_bound_the_tool_step_of_small_joint_steps(machine):
     assert (seen.max(0) > 0.5 * values[:, 0]).all()
 
 
-def test_distance_is_zero_at_singularities_and_nan_for_nan():
+def test_distance_from_singularity_is_zero_at_a_singularity_and_nan_for_nan():
     for arm, q in (
         (IRB140, np.zeros(6)),  # wrist singularity
         (PUMA560, [0.3, -0.4, -np.pi / 2 + np.arctan2(20.3, 431.8), 0.2, 0.7, 0]),  # stretched arm
@@ -91,7 +91,7 @@ def test_distance_is_zero_at_singularities_and_nan_for_nan():
         assert rows[0] == distance_from_singularity(arm, away) and np.isnan(rows[1])
 
 
-def test_distance_does_not_depend_on_the_size_of_the_arm():
+def test_distance_from_singularity_does_not_depend_on_the_size_of_the_arm():
     q = RNG.uniform(-2, 2, (20, 6))
     big = itmo_arm(1, 1, 2, 2)
     assert np.allclose(singular_values(ITMO6R, q), singular_values(big, q), rtol=1e-12, atol=0)

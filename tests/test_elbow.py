@@ -1,5 +1,5 @@
-"""The positioning arm of source 000, compared with its reference cases, the matrices of the
-document, and errata S0.
+"""The positioning arm of source 000, compared with reference cases, the matrices of the document
+and errata S0.
 """
 
 import numpy as np
@@ -43,7 +43,7 @@ def test_ik_returns_every_solution_in_its_row(case):
         np.testing.assert_allclose(
             arm.fk(solution["q"]).as_matrix(), solution["T"], rtol=0, atol=1e-9
         )
-    # The front rows face the point and the back rows face away from it. The two elbow rows lie on
+    # The front rows face the point and the back rows face away from it. The two elbow rows are on
     # opposite sides of the stretched arm.
     heading = np.array(case["p"])[:2] @ [np.cos(rows[:, 0]), np.sin(rows[:, 0])]
     if not case["singular"]["axis"]:
@@ -65,7 +65,7 @@ def test_principal_branch_is_row_0(case):
 
 
 @cases
-def test_workspace_verdicts_match_the_reference(case):
+def test_workspace_conditions_match_the_reference_cases(case):
     inside = workspace(case["l1"], case["l2"], case["p"])
     assert dict(zip(VERDICTS, inside.tolist(), strict=True)) == case["workspace"]
     assert inside.all() == case["inside_workspace"]
@@ -85,7 +85,7 @@ def test_fk_equals_the_product_of_the_document_matrices(l1, l2):
         np.testing.assert_allclose(T[:3, 3], wanted, rtol=0, atol=1e-14)
 
 
-def test_alpha_in_the_text_puts_the_tool_below_the_floor():
+def test_alpha_as_printed_in_the_text_puts_the_tool_below_the_floor():
     """Errata S0-a: alpha is +90 degrees in the text and -90 degrees in the matrices."""
     q = (0.3, 0.4, -0.2)
     assert spbu_arm(5, 4).fk(q).translation[2] == pytest.approx(3.810627646834, abs=1e-12)
@@ -109,7 +109,7 @@ def test_ik_reaches_the_point_and_contains_the_original_joints(l1, l2, shape):
         atol=1e-13 * (l1 + l2),
     )
     turned = Transform(Quaternion.from_angle_axis(0.7, (1, 0, 0)), points)
-    # this arm cannot choose the orientation
+    # the orientation does not matter, since this arm cannot choose it
     np.testing.assert_array_equal(arm.ik(turned), rows)
 
 
@@ -196,9 +196,9 @@ def test_two_solutions_may_be_inside_the_domain():
         (1, 1.7, (0, -2.7, 0)),
     ],
 )
-def test_border_is_reachable(l1, l2, point):
-    """Errata S0-l: because of rounding, the printed program refuses a stretched arm. It also fails
-    at the origin (S0-k).
+def test_boundary_of_the_workspace_is_reachable(l1, l2, point):
+    """Errata S0-l: because of rounding, the printed program refuses points that only the stretched
+    arm reaches. It also fails at the origin (S0-k).
     """
     assert workspace(l1, l2, point).all()
     arm = spbu_arm(l1, l2)
@@ -208,7 +208,7 @@ def test_border_is_reachable(l1, l2, point):
 
 
 @pytest.mark.parametrize("l1, l2", LENGTHS[:4])
-def test_solutions_beyond_the_border_are_nan(l1, l2):
+def test_solutions_outside_the_workspace_are_nan(l1, l2):
     for direction in ((1, 0, 0), (0.6, 0, 0.8), (0, 0, 1)):
         beyond = np.multiply(direction, (l1 + l2) * (1 + 1e-9))
         assert workspace(l1, l2, beyond).tolist() == [False, True, True, True]
@@ -219,7 +219,7 @@ def test_solutions_beyond_the_border_are_nan(l1, l2):
 
 @pytest.mark.parametrize("x", [0.0, -0.0])
 @pytest.mark.parametrize("y", [0.0, -0.0])
-def test_joint_1_is_0_on_the_axis_for_both_signs_of_zero(x, y):
+def test_joint_1_is_0_on_axis_1_for_both_signs_of_zero(x, y):
     """Errata S0-p: atan2(0, -0.0) is pi."""
     rows = spbu_arm(5, 4).ik((x, y, 4.9))
     np.testing.assert_array_equal(rows[:, 0], [0, 0, np.pi, np.pi])
@@ -228,7 +228,7 @@ def test_joint_1_is_0_on_the_axis_for_both_signs_of_zero(x, y):
 
 
 def test_free_joint_does_not_affect_other_rows_of_a_batch():
-    """Equal links folded onto joint 2, in a batch with other points."""
+    """One point of the batch is where equal links fold onto joint 2."""
     arm = loader_arm(1, 1)
     points = np.array([(1, 0.3, 0.2), (0, 0, 0), (0.5, -1, 0.4)])
     rows = arm.ik(points)

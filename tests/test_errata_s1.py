@@ -188,7 +188,7 @@ GREATEST = {
 
 
 def printed_blend(start, via, goal, b, s):
-    """Listing 12 as printed, without the bound on b: beyond 0.5 its `lin` extrapolates."""
+    """Listing 12 as printed, without an upper limit on b: `lin` extrapolates for b above 0.5."""
     x = (s - 0.5 + b) / (2 * b)
     first, last = start.lerp(via, 1 - 2 * b), via.lerp(goal, 2 * b)
     return first.lerp(via, x).lerp(via.lerp(last, x), x)
@@ -217,7 +217,7 @@ def test_greatest_speeds_and_accelerations_match_the_published_ones(name):
 
 
 def jumps(angles):
-    """Samples and joints after which a value jumps by more than half a turn."""
+    """The samples and joints after which a value jumps by more than half a turn."""
     return sorted(
         (round(float(T[i]), 2), int(j))
         for i, j in np.argwhere(abs(np.diff(angles, axis=0)) > np.pi)
@@ -250,7 +250,7 @@ def test_s1_e_fixed_row_jumps_by_a_whole_turn_and_follow_does_not():
         assert jumps(follow(IRB140, row, front)) == jumps(follow(IRB140, row, back)) == []
 
 
-def test_s1_h_673_samples_of_task_1_are_past_a_limit():
+def test_s1_h_673_samples_of_task_1_exceed_a_limit():
     inside = within(IRB140, followed(task1(S), 1, 1, 1))
     outside = ~inside.all(-1)
     assert outside.sum() == 673 and round(T[outside].max(), 2) == 6.72 and outside[0]

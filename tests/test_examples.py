@@ -22,8 +22,8 @@ HOW = doctest.NORMALIZE_WHITESPACE | doctest.ELLIPSIS
 
 
 def public():
-    """name -> object for the functions and classes of the packages and jobs, and for the modules
-    that define them.
+    """The functions and classes of the packages and jobs, and the modules that define them, by
+    name.
     """
     found = {}
     for module in map(importlib.import_module, (*PACKAGES, *JOBS)):

@@ -62,7 +62,7 @@ def reach(l1, l2, elbow):
 
 
 def same(a, b):
-    raise AssertionError("an exercise used a name of the notebook by accident")
+    raise AssertionError("an exercise used a function of the notebook by accident")
 
 
 form = law = same
@@ -72,8 +72,8 @@ form = law = same
 
 
 def test_exercise_needs_only_a_solution_and_cases():
-    """The notebook's names are available to the solution, but its `form`, `law` and `same` are
-    never used by accident.
+    """The solution can use the notebook's names, but the exercise never uses the notebook's `form`,
+    `law` and `same` by accident.
     """
     mine = exercise(reach, cases)
     verdict = check(mine, lambda a, b, q: np.hypot(a + b * np.cos(q), b * np.sin(q)))
@@ -116,12 +116,12 @@ def test_pairs_of_mistakes_are_named():
     assert verdict.mistake == "the stretched arm, and mm for m"
 
 
-def test_slip_that_undoes_a_mistake_explains_nothing():
+def test_slip_that_undoes_a_mistake_is_not_named():
     text = "def kept(x):\n    x = 1.0 * x\n    return x if x < 5 else float('nan')\n"
     mistakes = "**mm for m.** It is in mm.\n- `1.0 * x` → `1e-3 * x`"
     mine = exercise(text, lambda rng: [(x,) for x in rng.uniform(0, 10, 20)], mistakes)
     assert check(mine, lambda x: x / 1000 if x < 5000 else np.nan).mistake == "mm for m"
-    verdict = check(mine, lambda x: x)  # this answer lacks the limit at 5
+    verdict = check(mine, lambda x: x)  # this answer does not have the limit at 5
     assert not verdict.holds and verdict.mistake is None
 
 
@@ -130,7 +130,8 @@ def book_text(markdown):
 
 
 TURN = Quaternion.from_angle_axis(0.3, (0, 0, 1))
-# kind -> (the result of a solution, an equal answer, a wrong answer, an answer of another type)
+# For each kind of result: the result of a solution, an equal answer, a wrong answer, and an answer
+# of another type.
 KINDS = {
     "a number": ("2 * x", lambda x: 2 * x + 1e-9, lambda x: 3 * x, lambda x: [x, x]),
     "a whole number": ("round(x)", lambda x: float(round(x)), lambda x: x, lambda x: f"{x:.0f}"),
@@ -181,7 +182,7 @@ KINDS = {
 
 
 @pytest.mark.parametrize("kind", KINDS)
-def test_form_law_and_same_have_defaults(kind):
+def test_functions_form_law_and_same_have_defaults(kind):
     program, same, wrong, other = KINDS[kind]
     imports = "import numpy as np\nfrom robokin import Quaternion, ScaraPose, Transform\n"
     text = f"{imports}\nTURN = Quaternion.from_angle_axis(0.3, (0, 0, 1))\n\n\ndef mine(x):\n"
@@ -203,7 +204,7 @@ def test_unchanged_inputs_are_not_reported(given):
 
 
 class Gauge:
-    """A class whose == does not compare values."""
+    """A class without __eq__: instances with equal values are not equal."""
 
     def __init__(self, value):
         self.value = value
@@ -301,7 +302,7 @@ def test_folder_of_a_teachers_labs_is_found(place):
         variant("two_links", "Ada")
 
 
-def test_ids_of_our_labs_cannot_be_replaced(place):
+def test_labs_of_a_teacher_cannot_replace_ours(place):
     write(place / "scara_motion", reach_md=HEAD.format(number=1) + REACH, reach_py=CASES)
     assert book.lab("scara_motion").folder == book.OURS / "scara_motion"
     assert book.find("scara_motion.1", "exercises").task != "How far the tip is from the base."
@@ -399,7 +400,8 @@ def altered(*changes, text=REACH):
     return HEAD.format(number=1) + text
 
 
-# fault -> Markdown, Python, and the message: file and line (with ".md" or ".py"), and the reason
+# For each fault: the Markdown, the Python, and the message, which contains the file and line (with
+# ".md" or ".py") and the reason.
 BROKEN = {
     "no head": ("Reach\n", CASES, ".md, line 1: wanted '# 1. TITLE'"),
     "no solution": (
@@ -514,7 +516,7 @@ BROKEN = {
 
 
 @pytest.mark.parametrize("what", BROKEN)
-def test_faults_in_teacher_files_are_reported_and_the_others_work(what, place):
+def test_faults_in_teacher_files_are_reported_and_other_exercises_work(what, place):
     text, code, says = BROKEN[what]
     write(place / "mine", z_md=text, zz_md=HEAD.format(number=3) + REACH, zz_py=CASES)
     if code is not None:
@@ -533,7 +535,8 @@ def test_faults_in_teacher_files_are_reported_and_the_others_work(what, place):
             hint("mine.1")
 
 
-# fault -> the Python file, and the message about its cases, which are made when needed
+# For each fault: the Python file, and the message about its cases, which are made when they are
+# needed.
 UNDRAWN = {
     "cases that raise": ("    return 1 / 0\n", "It raises ZeroDivisionError: division by zero."),
     "cases that return nothing": ("    list(rng.uniform(0, 1, 3))\n", "It raises TypeError"),
@@ -548,7 +551,7 @@ UNDRAWN = {
 
 
 @pytest.mark.parametrize("what", UNDRAWN)
-def test_failing_cases_are_reported(what, place, monkeypatch):
+def test_errors_while_making_cases_are_reported(what, place, monkeypatch):
     monkeypatch.setattr(answers, "SECONDS", 0.2)
     code, says = UNDRAWN[what]
     write(
@@ -589,7 +592,7 @@ def test_solution_without_a_result_is_reported(change, says, place, monkeypatch)
     assert line.startswith(f"This cannot be judged: {where}") and says in line
 
 
-def test_test_exercise_is_read_from_a_file(place):
+def test_exercise_that_asks_for_a_test_is_read_from_a_file(place):
     write(place / "mine", twice_md=HEAD.format(number=1) + RIGHTS)
     assert check("mine.1", lambda program: program(3) == 6 and program(2) == 4).holds
     verdict = check("mine.1", lambda program: program(2) == 4)
@@ -614,7 +617,7 @@ NOTHING = """\
 """
 
 
-def test_incompatible_pairs_of_mistakes_explain_nothing():
+def test_pairs_of_mistakes_that_cannot_be_combined_are_ignored():
     mine = exercise(EMPTY, lambda rng: [(k / 2, k % 3 > 0) for k in range(9)], NOTHING)
     assert check(mine, lambda x, low: x * 3 if low else x).mistake == "not raised"
     verdict = check(mine, lambda x, low: x + 7 if low else x)
@@ -630,8 +633,8 @@ def test_incomparable_results_count_as_different():
     assert not verdict.holds and "cannot be judged" not in repr(verdict)
 
 
-def test_changed_solution_names_all_edits_that_no_longer_fit(place):
-    """In an exercise that asks for a test, an edit no longer fits if it fits none of the correct
+def test_all_edits_that_no_longer_match_a_changed_solution_are_reported(place):
+    """In an exercise that asks for a test, an edit is reported if it matches none of the correct
     programs.
     """
     text = altered(("l1**2 + l2**2\n", "l1 * l1 + l2 * l2\n"))
@@ -661,7 +664,7 @@ def test_empty_folder_is_reported(place):
 
 
 OPTION = "- `whole` **1 m.** It is not {length} m. *twice as long:* a second case."
-# fault -> predictions.md, predictions.py, and the message
+# For each fault: predictions.md, predictions.py and the message.
 UNPREDICTED = {
     "no facts": (PREDICTED, None, "line 3: no facts: wanted a function p1() in its Python file"),
     "other facts": (PREDICTED, "def p2():\n    pass\n", "line 3: no facts: wanted a function p1()"),
@@ -687,7 +690,7 @@ FACTS = "def p1():\n    return {'right': 'half', 'length': 1}\n\n\np3 = p1\n"
 
 
 @pytest.mark.parametrize("what", UNPREDICTED)
-def test_invalid_prediction_is_reported_and_the_others_work(what, place):
+def test_invalid_prediction_is_reported_and_other_predictions_work(what, place):
     text, code, says = UNPREDICTED[what]
     third = PREDICTED.partition("\n## p1")[2]
     write(place / "mine", predictions_md=f"{text}\n## p3\n{third}", objectives_md="1. one\n")
@@ -716,7 +719,7 @@ def test_duplicate_prediction_or_missing_correct_option_is_reported(place):
         predict("mine.p1")
 
 
-def test_prediction_text_that_cannot_be_filled_is_reported(place):
+def test_prediction_text_with_a_missing_value_is_reported(place):
     facts = FACTS.replace("length", "size")
     write(place / "mine", predictions_md=PREDICTED, predictions_py=facts)
     with pytest.raises(BadFile, match="line 3: p1 cannot be filled: KeyError: 'length'"):
@@ -752,7 +755,7 @@ def test_broken_file_does_not_affect_other_exercises(name, place):
     assert check("mine.1", reach).holds
 
 
-def test_endless_slips_are_not_tried():
+def test_slips_that_never_end_do_not_prevent_a_verdict():
     text = """\
 def halvings(x, least):
     count = 0
@@ -765,7 +768,7 @@ def halvings(x, least):
     assert not check(mine, lambda x, least: 4).holds
 
 
-def test_endless_program_of_a_teacher_is_reported(monkeypatch):
+def test_program_of_a_teacher_that_never_ends_is_reported(monkeypatch):
     monkeypatch.setattr(answers, "SECONDS", 0.3)
     text = """\
 def count(n):
@@ -820,7 +823,9 @@ CHANGES = [
 
 @pytest.mark.parametrize(("solution", "case", "changes"), CHANGES)
 def test_edited_programs_match_their_texts_and_have_no_side_effects(solution, case, changes):
-    """The edits are applied in any order, alone and in pairs, to pieces that are compiled once."""
+    """The edits are applied in any order, alone and in pairs, to pieces that are compiled only
+    once.
+    """
     steps = edits.Steps(solution, {})
     own = []
     for old, new in changes.items():

@@ -1,8 +1,8 @@
 """Explorers in a real browser, where they show the values that Python computes, whether moved by
 mouse, finger or keys; and explorers stored in a notebook.
 
-The tests read what a person would see: boxes, tables, text, handles, and the pixels and labels on
-canvases. For more digits they run "Copy as Python".
+The tests read what a reader would see: boxes, tables, text, handles, and the pixels and labels on
+canvases. If they need more digits, they run the code of "Copy as Python".
 """
 
 import itertools
@@ -178,15 +178,17 @@ class Open:
             self.handle(name).press(key)
 
     def take(self, name):
-        """Press the mouse button on a handle, and return its position."""
-        self.handle(name).focus()  # brings the handle in front of its neighbours
+        """Press the mouse button on a handle, and return the position of the handle."""
+        self.handle(name).focus()  # brings the handle to the front
         x, y = self.look().handles[name]["at"]
         self.page.mouse.move(x, y)
         self.page.mouse.down()
         return np.array([x, y])
 
     def drag(self, name, *stops, each=None):
-        """Drag a handle to places on the screen and read the state at each; return the last one."""
+        """Drag a handle to places on the screen, read the state at each place, and return the last
+        state.
+        """
         self.take(name)
         for stop in stops:
             self.page.mouse.move(*stop, steps=3)
@@ -207,8 +209,8 @@ def context(browser):
 
 @pytest.fixture
 def opened(context, tmp_path):
-    """`opened(explorer, arm)` saves the explorer and opens its page in a tab. The console must stay
-    free of errors.
+    """`opened(explorer, arm)` saves the explorer and opens its page in a tab. There must be no
+    errors in the console.
     """
     pages = []
 
@@ -238,7 +240,7 @@ def watched(page):
 # --- The joint explorer ---------------------------------------------------------------------------
 
 
-def tells_the_flange(shown, exact=True):
+def shows_the_flange_pose(shown, exact=True):
     """Check that table, boxes and text agree with `fk` of the posture; return the posture."""
     arm, seen = shown.arm, shown.look()
     q = np.array(shown.code(seen)["q"])
@@ -264,23 +266,25 @@ def tells_the_flange(shown, exact=True):
 
 
 @named(JOINTS)
-def test_joint_explorer_shows_the_flange(opened, arm):
+def test_joint_explorer_shows_the_flange_pose(opened, arm):
     shown = opened(joint_explorer(arm, singular=True), arm)
     rng, n = random.Random(3), len(arm.links)
-    poses, seen = map(list, zip(tells_the_flange(shown), strict=True))
+    poses, seen = map(list, zip(shows_the_flange_pose(shown), strict=True))
     ends = arm.limits / [[unit["size"]] for unit in shown.data["units"]]
     for k in range(8):
         j = k % n
         value = round(rng.uniform(*ends[j]))
         way = (shown.type, shown.slide)[k % 2]
         way(f"q{j + 1}", value)
-        q, look = tells_the_flange(shown)
+        q, look = shows_the_flange_pose(shown)
         poses.append(q)
         seen.append(look)
         assert poses[-1][j] / shown.data["units"][j]["size"] == pytest.approx(value, abs=1e-3)
         assert np.delete(poses[-1] == poses[-2], j).all(), "another joint moved"
     different = {tuple(q) for q in poses}
-    assert len({tuple(one.pixels) for one in seen}) == len(different) > 5, "the picture is frozen"
+    assert len({tuple(one.pixels) for one in seen}) == len(different) > 5, (
+        "the picture does not change"
+    )
 
 
 def test_joint_explorer_names_singularities(opened):
@@ -292,7 +296,7 @@ def test_joint_explorer_names_singularities(opened):
     assert shown.look().says == "Singular: wrist singularity."
 
 
-def test_explorer_says_nothing_about_singularities_unless_asked(opened):
+def test_explorer_mentions_singularities_only_on_request(opened):
     shown = opened(joint_explorer(IRB140, np.zeros(6)), IRB140)
     text = shown.page.locator(".rk").inner_text()
     assert "ingular" not in text and "ellipsoid" not in text and "quaternion" in text
@@ -302,10 +306,10 @@ def test_explorer_says_nothing_about_singularities_unless_asked(opened):
     assert "distance from singularity" in text and "ellipsoid" in text
 
 
-def test_number_box_stops_at_the_limit_and_shows_its_value(opened):
+def test_number_box_stops_at_the_limit_and_shows_the_value_used(opened):
     shown = opened(joint_explorer(IRB140, singular=True), IRB140)
     shown.type("q1", 999)
-    assert shown.look().boxes["q1"] == 180 and tells_the_flange(shown)[0][0] == np.pi
+    assert shown.look().boxes["q1"] == 180 and shows_the_flange_pose(shown)[0][0] == np.pi
     before = shown.look()
     shown.type("q2", "")
     assert shown.look().rows == before.rows
@@ -319,7 +323,7 @@ def test_number_box_stops_at_the_limit_and_shows_its_value(opened):
 
 
 def same(arm, q, rows, atol):
-    """Whether q and rows are the same postures, ignoring whole turns; NaN equals NaN."""
+    """Whether q and rows are the same postures except for whole turns; NaN equals NaN."""
     gap = q - rows
     gap = np.where(arm.prismatic, gap, gap - 2 * np.pi * np.round(gap / (2 * np.pi)))
     return np.array_equal(np.isnan(q), np.isnan(rows)) and bool(
@@ -328,8 +332,8 @@ def same(arm, q, rows, atol):
 
 
 def shows_every_branch(shown, exact=True):
-    """Assert that the table, the choice, the text and the picture agree with what Python computes
-    for the target shown.
+    """Assert that the table, the chosen row, the text and the picture agree with what Python
+    computes for the target shown.
     """
     arm, seen = shown.arm, shown.look()
     space = shown.code(seen)
@@ -343,7 +347,8 @@ def shows_every_branch(shown, exact=True):
         np.array([[np.nan if x == "\u2013" else float(x) for x in row] for row in cells]) * units
     )
     near = distance_from_singularity(arm, rows)
-    # Three decimals of a degree in the code matter more near a singularity.
+    # Near a singularity, rounding to three decimals of a degree in the copied code has a larger
+    # effect.
     fine = (
         0.0505 if exact else 0.0505 + 0.005 / np.maximum(np.nan_to_num(near, nan=1), 1e-3)[:, None]
     )
@@ -360,7 +365,7 @@ def shows_every_branch(shown, exact=True):
             np.min(np.maximum(low - x, x - high)) for x in (table[k, j], rows[k, j] + turns)
         ]
         assert abs(told - least) < np.max(fine) * units[j], (
-            "another value is less far past the limit"
+            "another value exceeds the limit by less"
         )
     assert [past[2 : 2 + n] for past in seen.past] == (exists[:, None] & ~inside).tolist()
     verdicts = [row[1] for row in seen.rows]
@@ -462,7 +467,7 @@ def test_target_explorer_opens_at_a_given_pose(opened):
     assert shows_every_branch(shown).usable.sum() == 8
 
 
-def test_chosen_branch_is_kept_and_its_gap_is_explained(opened):
+def test_chosen_branch_is_kept_out_of_reach_and_the_reason_is_given(opened):
     shown = opened(target_explorer(IRB140), IRB140)
     shown.choose("branch", 7)  # row 6, since "nearest" comes first
     assert shows_every_branch(shown).seen.chosen == 6
@@ -475,9 +480,9 @@ def test_chosen_branch_is_kept_and_its_gap_is_explained(opened):
     assert shows_every_branch(shown).seen.chosen == 6
 
 
-def test_joint_past_its_limit_is_shown_with_the_least_excess(opened):
-    """In lab 02, after a drag through -229°, q3 at 59.5° (9.5° past its limit) was once shown as
-    -300.5° (70° past).
+def test_joint_outside_its_limits_is_shown_with_the_least_excess(opened):
+    """In lab 02, after a drag through -229°, q3 = 59.5° (9.5° beyond its limit) was once shown as
+    -300.5° (70° beyond it).
     """
     shown = opened(target_explorer(IRB140), IRB140)
     pose = IRB140.fk(np.array([30, 10, 59.5, 20, 30, 40]) * deg)
@@ -485,7 +490,7 @@ def test_joint_past_its_limit_is_shown_with_the_least_excess(opened):
     values = dict(zip("xyz", pose.translation / mm, strict=True))
     values |= dict(zip(("roll", "pitch", "yaw"), turns, strict=True))
     tables = []
-    for row in (0, 1, 3, 6):  # whatever the previous posture was
+    for row in (0, 1, 3, 6):  # independent of the previous posture
         shown.choose("branch", row + 1)
         for name, value in (("x", 300), ("y", 0), ("z", 700), ("roll", 0), ("yaw", 0)):
             shown.type(name, value)
@@ -500,8 +505,8 @@ def test_joint_past_its_limit_is_shown_with_the_least_excess(opened):
 
 
 def test_q5_has_the_least_excess_in_lab_07_at_x_zero(opened):
-    """In lab 07 at x = 0, q5 was once shown as 259.8°, although -100.2° is only 0.2° past its
-    limit.
+    """In lab 07 at x = 0, q5 was once shown as 259.8°, although -100.2° exceeds its limit by only
+    0.2°.
     """
     shown = opened(target_explorer(PUMA560), PUMA560)
     for x in (600, 0, -600, 0):
@@ -537,7 +542,7 @@ def test_click_on_a_row_or_its_button_chooses_it_once(browser):
     tab.close()
 
 
-def test_home_key_on_an_arc_restores_the_first_rotation(opened):
+def test_home_key_on_an_arc_restores_the_initial_rotation(opened):
     """The sliders once changed the array that Home restores."""
     shown = opened(target_explorer(IRB140), IRB140)
     first = shown.look().boxes
@@ -549,8 +554,8 @@ def test_home_key_on_an_arc_restores_the_first_rotation(opened):
 
 
 def test_sliders_change_the_lever_lengths(opened):
-    """The arm, the curve and the text follow the three additional sliders, and the Python lines
-    contain the lengths.
+    """The arm, the curve and the text change with the three additional sliders, and the Python
+    lines contain the lengths.
     """
     arm = three_lever((0.9, 1.1, 0.6))
     shown = opened(target_explorer(arm), arm)
@@ -573,13 +578,16 @@ def test_sliders_change_the_lever_lengths(opened):
         told = re.search(r"least S is ([\d.]+)°, at alpha = ([\d.]+)°", seen.says).groups()
         assert np.allclose([float(x) for x in told], [least[1] / deg, least[0][2] / deg], atol=0.06)
     assert all(a != b for a, b in zip(seen.pixels, first.pixels, strict=True))
-    shown.type("lever AK", 1.5)  # the point is now inside the border |OB - BA| + AK
+    shown.type("lever AK", 1.5)  # the point is now nearer than |OB - BA| + AK
     shown.type("lever BA", 0.5)
-    assert shown.look().says == "No posture reaches this point."
+    assert shown.look().says == (
+        "No posture reaches this point: it lies 1565.2 mm from the base, not farther than "
+        "|OB \N{MINUS SIGN} BA| + AK (2300.0 mm)."
+    )
 
 
-def test_ranges_of_the_free_angle_can_be_compared(context, opened):
-    """The axis does not follow the range: an angle has the same place for every target."""
+def test_axis_of_the_free_angle_is_the_same_for_every_target(context, opened):
+    """The axis does not adapt to the range: an angle is at the same place for every target."""
     context.add_init_script(RECORD)
     shown = opened(target_explorer(LEVERS), LEVERS)
     places, spans = [], set()
@@ -628,8 +636,8 @@ def greatest(motion, law, fraction, samples):
 
 
 def shows_the_motion(shown, exact=True, held=False):
-    """Assert that table and text agree with the motion in the code; return the motion and the
-    state shown. `held`: a handle is still held.
+    """Assert that table and text agree with the motion in the code; return the motion and the state
+    shown. `held` says whether a handle is still held.
     """
     arm, seen = shown.arm, shown.look()
     space = shown.code(seen)
@@ -653,7 +661,7 @@ def shows_the_motion(shown, exact=True, held=False):
     with np.errstate(all="ignore"):
         recording = record(arm, t, q)
     v, a = recording.v, recording.a
-    if fraction == 0:  # separate halves, so that no difference spans the corner
+    if fraction == 0:  # differentiated in halves, so that no difference spans the corner
         half = SAMPLES // 2
         v = np.array(
             [*differentiate(q[: half + 1], t[: half + 1])[:-1], *differentiate(q[half:], t[half:])]
@@ -684,14 +692,14 @@ def shows_the_motion(shown, exact=True, held=False):
     path = blend(*stations, fraction, fine, corner=corner)
     place = "position" if isinstance(path, ScaraPose) else "translation"
     near = np.linalg.norm(getattr(path, place) - getattr(stations[1], place), axis=-1).min()
-    [told] = map(float, re.findall(r"passes via at (-?[\d.]+)", seen.says.replace("\u2212", "-")))
+    [told] = map(float, re.findall(r"passes (-?[\d.]+)", seen.says.replace("\u2212", "-")))
     if missing == 0:
         assert told == pytest.approx(near / size, abs=0.0505 if exact else 0.1)
     return SimpleNamespace(seen=seen, stations=stations, q=q, t=t, missing=missing)
 
 
 @named(POSES)
-def test_motion_passes_through_the_via_point_in_the_boxes(opened, arm):
+def test_motion_explorer_uses_the_via_point_in_the_number_boxes(opened, arm):
     shown = opened(motion_explorer(arm, *POSES[arm]), arm)
     looks = [shows_the_motion(shown)]
     cells = [cell.split(" ")[0] for cell in looks[0].seen.rows[0][1:]]
@@ -715,7 +723,7 @@ def test_motion_passes_through_the_via_point_in_the_boxes(opened, arm):
         change()
         looks.append(shows_the_motion(shown))
         assert looks[-1].seen.code != looks[-2].seen.code, "nothing changed"
-        assert looks[-1].seen.pixels[1] != looks[-2].seen.pixels[1], "the curves are frozen"
+        assert looks[-1].seen.pixels[1] != looks[-2].seen.pixels[1], "the curves do not change"
 
 
 def test_unreachable_via_point_leaves_a_gap_with_a_message(opened):
@@ -757,7 +765,9 @@ def test_click_on_a_curve_sets_the_clock(opened):
         seen = shown.look()
         times.append(float(seen.told["time"].removesuffix(" s")))
         pixels.add(seen.pixels[0])
-        assert seen.rows == before.rows and seen.code == before.code, "more than the clock changes"
+        assert seen.rows == before.rows and seen.code == before.code, (
+            "something other than the clock changed"
+        )
     assert np.diff(times) == pytest.approx(times[1] - times[0], abs=0.02)
     assert 1 < times[0] < times[2] < 5 and len(pixels) == 3
     canvas.click(position={"x": box["width"] - 1, "y": 100})
@@ -774,7 +784,7 @@ def test_motion_plays_to_its_end_and_keeps_its_numbers(opened):
     after = shown.look()
     assert after.rows == before.rows and after.code == before.code
     assert after.pixels[0] != before.pixels[0]
-    shown.type("duration", 4)  # the clock stays at the same fraction of the motion
+    shown.type("duration", 4)  # the clock keeps its fraction of the motion
     assert shown.look().told["time"] == "4.00 s"
 
 
@@ -782,10 +792,10 @@ def test_motion_plays_to_its_end_and_keeps_its_numbers(opened):
 
 
 def follows_the_pointer(shown, name, parts, *keys):
-    """Drag a handle along the curve on which keys move it, and assert that it stays under the
-    pointer, shows what the keys have shown, and changes no values except `parts`. Return the length
-    of the path on the screen in px, or None if it hardly moves because its axis points at the eye,
-    or stops at the edge of the scene.
+    """Drag a handle along the curve on which keys move it. Assert that it stays under the pointer,
+    that the explorer shows what it showed after the keys, and that no values except `parts` change.
+    Return the length of the path on the screen in px, or None if the handle hardly moves because
+    its axis points at the viewer, or if it stops at the edge of the scene.
     """
     start = shown.look()
     places, codes = [], []
@@ -808,7 +818,9 @@ def follows_the_pointer(shown, name, parts, *keys):
     seen = []
     last = shown.drag(name, *places, each=lambda look, stop: seen.append(look))
     for look, place, key_look in zip(seen, places, codes, strict=True):
-        assert np.linalg.norm(np.array(look.handles[name]["at"]) - place) < 3, f"{name} slips away"
+        assert np.linalg.norm(np.array(look.handles[name]["at"]) - place) < 3, (
+            f"{name} does not stay under the pointer"
+        )
         for part, value in key_look.boxes.items():
             step = abs(codes[2].boxes[part] - codes[0].boxes[part])
             assert abs(look.boxes[part] - value) <= 4 * step / long + 0.15, (name, part)
@@ -834,7 +846,7 @@ def test_dragging_moves_only_the_held_joint(opened, arm):
     x, y = shown.look().handles["q1"]["at"]
     shown.page.mouse.move(x + 40, y + 30)
     shown.page.mouse.up()
-    tells_the_flange(shown, exact=False)
+    shows_the_flange_pose(shown, exact=False)
 
 
 @named((IRB140, SCARA, ELBOW, FLAT))
@@ -902,7 +914,7 @@ def _place(target):
     return target.translation if isinstance(target, Transform) else np.array(target)
 
 
-# Values of a target at which the arm is singular: joint 1 is free, or the links are stretched.
+# Values of a target at which the arm is singular: joint 1 is free, or the arm is stretched.
 SINGULAR = {
     IRB140: {"x": 0, "y": 0, "roll": 0, "pitch": 0},
     SCARA: {"x": SCARA.reach / mm, "y": 0},
@@ -912,7 +924,7 @@ SINGULAR = {
 
 
 @named(SINGULAR)
-def test_drag_out_of_reach_and_through_a_singularity_recovers(opened, arm):
+def test_explorer_recovers_from_a_drag_out_of_reach_or_through_a_singularity(opened, arm):
     shown = opened(target_explorer(arm), arm)
     start = np.array(shown.look().handles["free"]["at"], dtype=float)
     kinds, pixels, hub = [], set(), PAGE["hub"][0]
@@ -921,7 +933,7 @@ def test_drag_out_of_reach_and_through_a_singularity_recovers(opened, arm):
         now = shows_every_branch(shown, exact=False)
         kinds.append(now.exists.any())
         pixels.add(tuple(now.seen.pixels))
-        # The dot of the flange must be in the middle of the target.
+        # The dot that marks the flange must be in the middle of the target.
         assert _color(shown, now.seen.handles["free"]["at"]) == hub or not now.exists.any()
         if not now.exists.any():
             assert all(row[1] == "does not exist" for row in now.seen.rows)
@@ -955,7 +967,7 @@ def _color(shown, at):
 
 
 @named(POSES)
-def test_dragging_moves_only_the_held_station(opened, arm):
+def test_dragging_moves_only_the_held_pose(opened, arm):
     shown = opened(motion_explorer(arm, *POSES[arm]), arm)
     names = ("start", "via", "goal")
     assert set(shown.look().handles) == {*names, "via x", "via y", "via z"}
@@ -1009,8 +1021,8 @@ def test_canvases_are_redrawn_after_a_change_of_theme_or_size(opened, kind):
 
 
 @pytest.mark.parametrize("kind", KINDS)
-def test_last_of_many_moves_is_shown(opened, kind):
-    """If many large moves come before one frame, only the last position of the pointer counts."""
+def test_explorer_shows_the_last_of_many_pointer_positions(opened, kind):
+    """If the pointer makes many large moves within one frame, only its last position counts."""
     shown = opened(KINDS[kind](), IRB140)
     for name in shown.look().handles:
         shown.take(name)
@@ -1025,7 +1037,7 @@ def test_last_of_many_moves_is_shown(opened, kind):
         shown.page.mouse.move(x + 60, y + 25)
         again = shown.look()
         gap = np.array(once.handles[name]["at"]) - again.handles[name]["at"]
-        assert np.linalg.norm(gap) < 1.5, f"{name} had not arrived yet"
+        assert np.linalg.norm(gap) < 1.5, f"{name} is not at the last position"
         shown.page.mouse.up()
         shown.page.mouse.move(x + 200, y + 200)
         assert shown.look().code == again.code, f"{name} moves after its release"
@@ -1132,7 +1144,7 @@ def test_keyboard_reaches_and_moves_every_handle(opened, kind):
     scene.press("ArrowLeft")
     turned = shown.look()
     assert turned.pixels != start.pixels and turned.code == start.code
-    assert turned.handles != start.handles, "handles stay behind when the view turns"
+    assert turned.handles != start.handles, "the handles do not move when the view turns"
     scene.press("Home")
     assert shown.look().pixels == start.pixels
 
@@ -1174,7 +1186,7 @@ def test_axes_can_be_switched_on_and_off(opened):
         assert shown.look().pixels == before.pixels
 
 
-def test_ellipsoid_is_of_the_tool_that_may_turn_or_is_held(opened):
+def test_ellipsoid_can_be_shown_for_a_free_or_a_held_tool(opened):
     q = np.array([0, 60, -170, 0, 40, 0]) * deg
     for shown in (
         opened(joint_explorer(PUMA560, q, singular=True), PUMA560),
@@ -1237,7 +1249,7 @@ def test_arm_fills_the_scene_when_the_page_opens(opened):
 
 
 def pixels(shown, points):
-    """The places of points (..., 3) on the page, for a scene that has not grown."""
+    """The places of points (..., 3) on the page, for a scene that has not been enlarged."""
     scene, box = shown.data["scene"], shown.rk.locator("canvas").first.bounding_box()
     seen = np.array(scene["seen"])
     if scene["flat"] is None:
@@ -1249,7 +1261,7 @@ def pixels(shown, points):
 
 
 @pytest.mark.parametrize("touched", [False, True], ids=["mouse", "touch"])
-def test_rings_stand_at_the_axes_of_their_joints_and_do_not_overlap(browser, opened, touched):
+def test_rings_are_at_the_axes_of_their_joints_and_do_not_overlap(browser, opened, touched):
     size, reach, apart = (44, 84, 39) if touched else (26, 60, 24)
     options = {"has_touch": True, "is_mobile": True} if touched else {}
     context = browser.new_context(viewport={"width": 1000, "height": 900}, **options)
@@ -1276,13 +1288,13 @@ def test_rings_stand_at_the_axes_of_their_joints_and_do_not_overlap(browser, ope
             here, there = pixels(shown, joint @ np.stack([np.zeros(3), link.axis]))
             way = (there - here) / np.linalg.norm(there - here)
             off = places[i] - here
-            # as far as the ring is wide, and its neighbours may push the handle by a half of theirs
+            # the handle is on the ring, and its neighbours may push it aside by half of their size
             assert abs(np.linalg.det([way, off])) < 0.5 * reach + size / 2, (arm.name, i + 1)
             assert np.linalg.norm(off) < 0.85 * reach + size / 2, (arm.name, i + 1)
     context.close()
 
 
-def test_wrist_centre_is_marked_and_stays_while_the_wrist_turns(opened):
+def test_wrist_centre_is_marked_and_does_not_move_while_the_wrist_turns(opened):
     q = np.array([20, 70, -50, 30, 60, 40]) * deg
     shown = opened(joint_explorer(ITMO6R, q, wrist=True), ITMO6R)
     arcs = """() => new Promise(done => {
@@ -1316,7 +1328,8 @@ def test_axe_finds_no_serious_problems(browser, opened, scheme):
     context.add_init_script(WATCH)
     q = np.linspace(0, 1, 41)[:, None] * np.array([0.5, 0.3, -0.4, 1, 1, 1])
     player = animate(IRB140, np.linspace(0, 2, 41), q, title="A turn of every joint")
-    for output in (*(make() for make in KINDS.values()), player):
+    corner = motion_explorer(IRB140, START, VIA, GOAL, close_up=True)
+    for output in (*(make() for make in KINDS.values()), corner, player):
         shown = opened(output, IRB140, within=context)
         shown.rk.locator("canvas").first.wait_for()
         found = Axe().run(shown.page, context=".rk").response["violations"]
@@ -1386,14 +1399,14 @@ def test_thousands_of_moves_do_not_leak_memory(opened, kind):
         shown.press(name, "Home")
         heap.append(_heap(shown.page))
     assert shown.look().boxes == start.boxes
-    # a leak grows with each thousand moves; uncollected garbage does not
+    # a leak grows with every thousand moves, but uncollected garbage does not
     assert min(heap[2:]) - heap[0] < 2, f"{heap} MB"
 
 
 def _heap(page):
     """Megabytes of JavaScript in use after garbage collection."""
     session = page.context.new_cdp_session(page)
-    for _ in range(3):  # collecting one object can make others collectable
+    for _ in range(3):  # the collection of one object can make others collectable
         session.send("HeapProfiler.collectGarbage")
     used = session.send("Runtime.getHeapUsage")["usedSize"] / 1e6
     session.detach()
@@ -1433,7 +1446,7 @@ def test_scene_and_sliders_fit_into_narrow_and_wide_pages(browser, opened, width
 
 
 @pytest.mark.parametrize("kind", KINDS)
-def test_printed_page_keeps_the_picture(opened, kind):
+def test_printed_page_contains_the_picture(opened, kind):
     shown = opened(KINDS[kind](), IRB140)
     before = shown.look()
     shown.page.emulate_media(media="print", color_scheme="dark")
@@ -1446,10 +1459,10 @@ def test_printed_page_keeps_the_picture(opened, kind):
     assert shown.look().pixels == before.pixels
 
 
-# --- Errors for wrong calls -----------------------------------------------------------------------
+# --- Errors for invalid calls ---------------------------------------------------------------------
 
 
-def test_errors_for_wrong_calls_name_what_is_wanted():
+def test_errors_for_invalid_calls_say_what_is_wanted():
     two = IRB140.fk(np.zeros((2, 6)))
     inverse = type("Unknown", (type(FLAT.geometry),), {})
     unknown = ClosedFormArm("unknown", inverse(0.3, 0.2, (0, 0)), FLAT.limits)
@@ -1525,7 +1538,7 @@ def stored(tmp_path_factory):
     return path
 
 
-def test_stored_still_picture_contains_text_that_nbval_compares(stored, tmp_path):
+def test_stored_output_contains_text_that_nbval_compares(stored, tmp_path):
     once = stored.read_bytes()
     notebook = nbformat.reads(once.decode(), as_version=4)
     assert set(notebook.metadata) == {"kernelspec", "language_info"}
@@ -1554,10 +1567,12 @@ def test_stored_still_picture_contains_text_that_nbval_compares(stored, tmp_path
     run = nbval(once)
     assert run.returncode == 0, run.stdout[-3000:]
     changed = once.replace(b"8 of 8 branches are usable", b"7 of 8 branches are usable")
-    assert changed != once and nbval(changed).returncode != 0, "nbval does not compare the words"
+    assert changed != once and nbval(changed).returncode != 0, "nbval does not compare the text"
 
 
-def test_trusted_notebook_works_without_a_kernel_in_every_theme(jupyter, page, stored):
+def test_explorers_of_a_trusted_notebook_work_without_a_kernel_in_every_theme(
+    jupyter, page, stored
+):
     name = _copied(jupyter, stored, "trusted explorers")
     jupyter.trust(name)
     jupyter.open(page, name)
@@ -1566,7 +1581,7 @@ def test_trusted_notebook_works_without_a_kernel_in_every_theme(jupyter, page, s
     for i, kind in enumerate(CELLS, 1):
         cells.nth(i).scroll_into_view_if_needed()
         cells.nth(i).locator(".rk canvas").first.wait_for()
-        assert cells.nth(i).locator("img").count() == 0, "the still picture is still there"
+        assert cells.nth(i).locator("img").count() == 0, "the still picture was not removed"
         shown[kind] = cells.nth(i).locator(".rk")
     rk = shown["target"]
     rk.scroll_into_view_if_needed()
@@ -1600,7 +1615,7 @@ def test_trusted_notebook_works_without_a_kernel_in_every_theme(jupyter, page, s
     pictures = {True: set(), False: set()}
     for k in range(20):
         light = bool(k % 2)
-        if k % 4 < 2:  # use JupyterLab's menu, which is slow
+        if k % 4 < 2:  # only sometimes use JupyterLab's menu, which is slow
             page.get_by_role("menuitem", name="Settings", exact=True).click()
             menu = page.locator(".lm-Menu-item")
             menu.filter(has_text=re.compile(r"^Theme$")).click()
@@ -1618,11 +1633,13 @@ def test_trusted_notebook_works_without_a_kernel_in_every_theme(jupyter, page, s
         assert min(seen["bytes"]) > 3000, f"blank after {k + 1} changes of the theme"
         pictures[light].add(tuple(seen["pixels"]))
     for dark, bright in itertools.product(pictures[False], pictures[True]):
-        assert all(a != b for a, b in zip(dark, bright, strict=True)), "a canvas keeps its colours"
+        assert all(a != b for a, b in zip(dark, bright, strict=True)), (
+            "a canvas keeps its old colours"
+        )
     assert page.outside == [] and page.errors == []
 
 
-def test_untrusted_notebook_shows_stills_and_instructions(jupyter, page, stored):
+def test_untrusted_notebook_shows_still_pictures_and_instructions(jupyter, page, stored):
     jupyter.open(page, _copied(jupyter, stored, "untrusted explorers"))
     for cell in page.locator(".jp-CodeCell").all()[1:]:
         cell.scroll_into_view_if_needed()

@@ -34,7 +34,7 @@ class Fetches(HTMLParser):
 
 
 def formulas(path):
-    """(TeX, whether it is on a line by itself) for each formula of a notebook."""
+    """Yield the TeX of each formula of a notebook, and whether it is displayed on its own line."""
     for cell in json.loads(path.read_text(encoding="utf-8"))["cells"]:
         if cell["cell_type"] == "markdown":
             text = re.sub(r"```.*?```|`[^`\n]*`", "", "".join(cell["source"]), flags=re.S)
@@ -52,11 +52,11 @@ def test_every_formula_becomes_mathml(path):
         # the MathML contains every number
         said = re.sub(r"\\[A-Za-z]+", " ", tex)
         for number in re.findall(r"\d+", re.sub(r"\[[\d.]+\w*\]", "", said)):
-            assert number in read, f"{tex}: {number} is lost"
+            assert number in read, f"{tex}: {number} is missing"
 
 
 @pytest.mark.parametrize("path", PATHS, ids=lambda path: path.stem)
-def test_page_fetches_nothing_and_has_every_formula(path, exported):
+def test_page_fetches_nothing_and_contains_every_formula(path, exported):
     page = exported[path.relative_to(NOTEBOOKS).with_suffix("").as_posix()]
     text = page.read_text(encoding="utf-8")
     fetches = Fetches(text)
@@ -113,7 +113,7 @@ def test_command_reports_a_bad_file_and_exports_the_others(tmp_path):
     assert "00_start_here.html" in run.stdout and " kB" in run.stdout
 
 
-def test_files_that_are_not_ours_are_not_overwritten(tmp_path, monkeypatch, capsys):
+def test_files_that_we_did_not_write_are_not_overwritten(tmp_path, monkeypatch, capsys):
     monkeypatch.chdir(tmp_path)
     mine = tmp_path / "00_start_here.html"
     mine.write_text("mine")
@@ -139,7 +139,7 @@ def test_links_lead_to_the_neighbouring_pages(tmp_path):
     assert inside and all(link.endswith(".html") for link in inside if "_" in link)
 
 
-def test_start_here_explains_the_export(tmp_path):
+def test_lab_00_explains_the_export(tmp_path):
     text = START.read_text(encoding="utf-8")
     assert "python -m robokin.course export" in text
     assert (ROOT / "README.md").read_text(encoding="utf-8").count("robokin.course export") >= 1
@@ -161,7 +161,7 @@ def test_page_follows_the_preferred_color_scheme(browser, tmp_path):
     assert min(seen[:2]) > 0.9 and max(seen[2:]) < 0.2
 
 
-def test_bad_notebook_is_reported_with_its_reason(tmp_path):
+def test_invalid_notebook_is_reported_with_the_reason(tmp_path):
     path = tmp_path / "a.ipynb"
     cell = {"cell_type": "code", "source": "1", "metadata": {}, "outputs": [], "id": "a"}
     good = {"metadata": {}, "nbformat": 4, "nbformat_minor": 0}

@@ -1,4 +1,4 @@
-"""Figures in a page: they follow its theme and its width, and stay readable."""
+"""Figures in a page: they adapt to its theme and its width, and remain readable."""
 
 import io
 import re
@@ -67,7 +67,7 @@ def test_jupyterlab_theme_overrides_the_system_theme(browser, figures, light):
     page.close()
 
 
-def test_red_green_and_blue_axes_keep_their_hues_in_the_dark(browser, figures):
+def test_red_green_and_blue_axes_keep_their_hues_on_a_dark_page(browser, figures):
     page = browser.new_page(color_scheme="dark")
     page.set_content(f"<body>{made(figures['frames'])}</body>")
     shot = Image.open(io.BytesIO(page.locator("img").screenshot())).convert("RGB")
@@ -108,7 +108,7 @@ def test_figure_text_is_at_least_ten_pixels_high_even_on_a_phone(browser, figure
 
 
 @pytest.mark.parametrize("theme", ["light", "dark"])
-def test_shadow_marks_each_side_on_which_a_figure_continues(browser, theme):
+def test_shadow_marks_each_side_on_which_a_wide_figure_is_cut_off(browser, theme):
     fig = figure("An empty figure that is wide.", width=9, height=2)
     fig.text(0.5, 0.5, "word", fontsize=8)
     page = browser.new_page(viewport={"width": 390, "height": 700}, color_scheme=theme)
@@ -116,7 +116,7 @@ def test_shadow_marks_each_side_on_which_a_figure_continues(browser, theme):
     box = page.locator(".robokin-figure")
 
     def contrast():
-        """The contrast of the left and of the right edge with the middle."""
+        """Whether the left edge and the right edge contrast with the middle."""
         page.wait_for_timeout(100)
         shot = np.asarray(Image.open(io.BytesIO(box.screenshot())).convert("L"), dtype=float)
         row = shot[20]
@@ -135,10 +135,10 @@ def test_shadow_marks_each_side_on_which_a_figure_continues(browser, theme):
 # --- Notebooks that are handed in -----------------------------------------------------------------
 
 
-def test_report_shows_the_figures_of_the_notebook_without_additions(figures):
+def test_report_shows_the_figures_of_the_notebook_without_injected_code(figures):
     html = made(figures["own"])
     assert again(html, "nonce") == html
-    alone = re.search(r"<img [^>]*>", html)[0]  # the form in older notebooks
+    alone = re.search(r"<img [^>]*>", html)[0]  # the form that older notebooks contain
     older = re.sub(r'style="[^"]*" ', "", alone)
     assert "min-width:900px" in again(older, "nonce") and "robokin-figure" in again(older, "nonce")
     evil = html.replace("<style>", "<style>@import url(https://example.org/x.css);")

@@ -30,8 +30,8 @@ def alike(one, other):
 
 
 def test_frames_show_the_motion_at_their_times(tmp_path):
-    """The reversed motion shows the same pictures in reverse order; while the arm is at rest, the
-    pictures are equal.
+    """A film of the reversed motion has the same pictures in reverse order; while the arm is at
+    rest, the pictures are equal.
     """
     there, lasts = frames(animate(IRB140, T, WAY), tmp_path / "there.gif")
     assert there.shape[1:] == (450, 640, 3) and len(there) == 4 * film.RATE + 1
@@ -68,7 +68,7 @@ def test_moving_things_are_drawn_and_missing_ones_are_not(tmp_path):
 
 
 def test_labels_of_moving_things_are_next_to_them():
-    """A thing that is missing in the second half has no label there."""
+    """A thing that is missing in the second half of the film has no label there."""
     at = np.arange(0, 401, 40)
     still = np.repeat(WAY[:1], len(T), axis=0)
     way = [0.3, 0.5, 0.9] + T[:, None] / 4 * [0.4, -0.8, -0.4]
@@ -86,7 +86,9 @@ def test_labels_of_moving_things_are_next_to_them():
                 continue
             found.append(place.mean(axis=0))
             away = abs(word - found[-1])
-            assert away.max() < 150 and away.sum(axis=-1).min() < 40, "near its point"
+            assert away.max() < 150 and away.sum(axis=-1).min() < 40, (
+                "the label is not near its point"
+            )
         assert len(found) == shown and np.linalg.norm(found[-1] - found[0]) > 50
 
 

@@ -1,4 +1,4 @@
-"""Views fit on a screen, and what they write can be read: in the exported labs, and one lab in
+"""Views fit on a screen and their text is readable, in the exported labs and in one lab in
 JupyterLab. `benchmarks/fit.py` measures every lab in JupyterLab.
 """
 
@@ -29,17 +29,17 @@ def opened(browser, path, width, theme):
 
 
 @pytest.mark.parametrize("lab", LABS)
-def test_views_fit_and_their_words_can_be_read_on_a_laptop_and_on_a_phone(browser, exported, lab):
-    """At 1036 px an output is as wide as in JupyterLab next to its file browser."""
+def test_views_fit_and_their_text_is_readable_on_a_laptop_and_on_a_phone(browser, exported, lab):
+    """At 1036 px, an output is as wide as in JupyterLab with its file browser open."""
     for width, theme in ((1036, "light"), (900, "dark"), (390, "dark")):
         page = opened(browser, exported[lab], width, theme)
         assert faults(page) == [], f"{width} px, {theme}"
         written = page.evaluate("canvasWords().flatMap(each => each.words).length")
-        assert written > 20, "no words were recorded"
+        assert written > 20, "no text was recorded"
         found = sizes(page)
         assert found, "no view is open"
         for view in found if width == 1036 else ():
-            wide = 860 if "rk-ask" in view["kind"] else 894  # a question is narrower, to be read
+            wide = 860 if "rk-ask" in view["kind"] else 894  # narrower for reading
             assert view["width"] == pytest.approx(wide, abs=1)
             assert 60 < view["height"] <= view["most"], view
             if "rk-player" in view["kind"]:
@@ -47,7 +47,7 @@ def test_views_fit_and_their_words_can_be_read_on_a_laptop_and_on_a_phone(browse
         page.close()
 
 
-def test_planted_faults_on_a_canvas_are_found(browser):
+def test_planted_faults_on_a_canvas_are_detected(browser):
     page = browser.new_page()
     page.add_init_script(WORDS)
     page.goto(
@@ -82,7 +82,7 @@ def test_planted_faults_on_a_canvas_are_found(browser):
     page.close()
 
 
-def test_views_fit_beside_the_file_browser_of_jupyterlab(browser, jupyter):
+def test_views_fit_next_to_the_file_browser_of_jupyterlab(browser, jupyter):
     lab = "05_scara_motion.ipynb"
     context = browser.new_context(viewport=SCREEN)
     page = context.new_page()
@@ -100,7 +100,7 @@ def test_views_fit_beside_the_file_browser_of_jupyterlab(browser, jupyter):
         if 'class="robokin-player"' in output.get("data", {}).get("text/html", "")
     ]
     call = re.compile(r"^\$(\w+)\.(?:play|ask|explore|show)\(", re.M)
-    calls = [call.findall(output) for output in outputs]  # a question contains a view's call
+    calls = [call.findall(output) for output in outputs]  # a question contains the call of its view
     count = sum("prediction" not in names for names in calls)
     assert len(found) == count >= 5
     for view in found:

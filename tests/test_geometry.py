@@ -1,5 +1,5 @@
 """Geometries: links and inverse come from the same lengths, one tolerance applies everywhere, and
-each reason has a sentence.
+each reason has an explanation.
 """
 
 import dataclasses
@@ -124,8 +124,8 @@ def test_arm_without_closed_form_has_a_different_type():
         type(IRB140)("none", arm.geometry, arm.limits)
 
 
-# Borders of the workspace: for each, the answers of `ik` and `explain` at a distance beyond it.
-# Both must use the same tolerance.
+# Boundaries of the workspace: for each of them, `stretched` returns two functions, the results of
+# `ik` and of `explain` at a given distance beyond the boundary. Both must use the same tolerance.
 def stretched(arm, at):
     return lambda beyond: arm.ik(at(beyond)), lambda beyond: explain(arm, at(beyond), 0)
 
@@ -149,7 +149,9 @@ BORDERS = {
 
 
 def puma_beyond(x):
-    """A pose whose wrist centre, the origin of the flange, is x beyond the stretched arm."""
+    """A pose whose wrist centre, the origin of the flange, is x beyond the reach of the stretched
+    arm.
+    """
     T = PUMA560.fk([0, 0, -90 * deg + np.arctan2(20.3, 431.8), 0.1, 0.2, 0.3])
     ahead = (T.translation - [0, 0, 0.67183]) * [1, 0, 1]
     return Transform(T.rotation, T.translation + x * ahead / np.linalg.norm(ahead))
@@ -160,9 +162,10 @@ def away(x):
 
 
 @pytest.mark.parametrize("name", BORDERS)
-def test_ik_and_explain_agree_on_the_border_of_every_geometry(name):
+def test_ik_and_explain_agree_at_the_workspace_boundary_of_every_geometry(name):
     """`explain` gives a reason exactly for the rows that are NaN in `ik`, from a rounding error to
-    10 mm beyond the border. (Between these distances, the reason in the first edition was empty.)
+    10 mm beyond the boundary. (In the first version, the reason was empty for some of these
+    distances.)
     """
     ik, words = BORDERS[name]
     reached = []
@@ -176,7 +179,7 @@ def test_ik_and_explain_agree_on_the_border_of_every_geometry(name):
             if beyond > 1e-4:
                 number = float(said.split(" is ")[1].split(" mm")[0])
                 assert number == pytest.approx(beyond * 1000, rel=0.3, abs=0.051)
-    assert sorted(reached, reverse=True) == reached, "there is more than one border"
+    assert sorted(reached, reverse=True) == reached, "there is more than one boundary"
     assert reached[25] and reached[26] and not reached[-1]
 
 
@@ -186,7 +189,8 @@ def test_ik_of_equal_links_is_accurate_near_the_shoulder(exponent):
     the distance.
     """
     d = 10.0**-exponent
-    # A point nearer to axis 1 than 1e-13 times the reach counts as lying on it, so joint 1 is free.
+    # A point that is nearer to axis 1 than 1e-13 times the reach counts as on it, so joint 1 is
+    # free.
     tolerance = 4e-15 if exponent < 12 else 4e-13
     angle = np.linspace(0, TURN, 13)
     circle = np.stack([np.cos(angle), np.sin(angle), 0 * angle], axis=-1) * d
@@ -203,7 +207,7 @@ def test_ik_of_equal_links_is_accurate_near_the_shoulder(exponent):
     scara = scara_arm("equal", 0.2, 1, 1, [(-3, 3)] * 3 + [(0, 1)])
     rows = scara.ik(ScaraPose(circle, 0.3))
     assert abs(scara.fk(rows).translation - circle[:, None]).max() < tolerance
-    arm = itmo_arm(0.1, 0.5, 0.5, 0.2)  # the targets put its wrist centre near the shoulder
+    arm = itmo_arm(0.1, 0.5, 0.5, 0.2)  # for these targets its wrist centre is near the shoulder
     T = Transform(Quaternion.from_angle_axis(0.7, (0, 0, 1)), lifted + [0, 0, 0.1])
     T = T @ away(0.2)
     back = arm.fk(arm.ik(T))
@@ -211,8 +215,10 @@ def test_ik_of_equal_links_is_accurate_near_the_shoulder(exponent):
     assert np.isfinite(back.translation).any(axis=(1, 2)).all()
 
 
-def test_free_joints_of_folded_equal_links_follow_the_motion():
-    """The tip is at the base, where joint 1 is free, so a motion keeps the value it had."""
+def test_free_joint_keeps_its_value_where_equal_links_are_folded():
+    """The tip is at the base, where joint 1 is free, so a motion keeps the previous value of joint
+    1.
+    """
     scara = scara_arm("equal", 0.2, 1, 1, [(-3, 3)] * 3 + [(0, 1)])
     rows = scara.ik(ScaraPose((0.0, 0.0, 0.1), 0.3))
     near = np.array([1.1, np.pi, 0.2, 0.1])
@@ -238,20 +244,20 @@ def test_two_levers_agrees_with_the_law_of_cosines():
             (one**2 + two**2 - d**2) / (2 * one * two), abs=1e-13
         )
         assert 0 < ahead < np.pi and 0 < turn < np.pi
-        # The chain must close: one link goes forward, the other back.
+        # The chain must close: one link goes forward and the other back.
         tip = one * np.exp(-1j * ahead) + two * np.exp(1j * (turn - ahead))
         assert abs(tip - d) < 1e-14
     assert not two_levers(1, 0.5, np.array([0.49, 1.51, np.nan]))[2].any()
 
 
-def test_distance_equals_hypot_at_every_size():
+def test_distance_equals_hypot_at_every_scale():
     rng = np.random.default_rng(9)
     x, y = rng.normal(size=(2, 1000)) * 10.0 ** rng.integers(-300, 150, 1000)
     assert np.allclose(distance(x, y), np.hypot(x, y), rtol=4e-16, atol=0)
     assert distance(np.zeros(1), np.zeros(1)) == 0 and distance(np.array(5e-324), 0.0) == 5e-324
 
 
-def test_every_gap_and_singularity_has_a_sentence():
+def test_every_gap_and_singularity_has_an_explanation():
     tilted = Transform(Quaternion.from_angle_axis(1 * deg, (1, 0, 0)), (0.3, 0, 0.1))
     offset = PUMA560.fk(np.full(6, 0.2))
     inside = Transform(offset.rotation, (0.0, 0.01, 0.7))
@@ -276,7 +282,7 @@ def test_every_gap_and_singularity_has_a_sentence():
     assert "did you mean millimetres" in explain(SCARA, ScaraPose((300, 0, 100), 0.1), 0)
 
 
-def test_wrist_is_named_only_for_arms_with_a_wrist():
+def test_wrist_is_mentioned_only_for_arms_with_a_wrist():
     for arm in (loader_arm(1, 1), spbu_arm(1, 0.7)):
         on_axis = arm.ik((0, 0, 1.2))
         assert arm.geometry.singularities(on_axis)["shoulder"].all()

@@ -1,5 +1,5 @@
 """Guesses made in a page are saved next to their notebook, and a report lists them in order,
-whatever other files are there.
+whatever other files are in the folder.
 """
 
 import json
@@ -17,8 +17,8 @@ import test_browser
 from conftest import awake, until
 from playwright.sync_api import expect
 
+from robokin.course import book, predict
 from robokin.course import guesses as hub
-from robokin.course import predict
 from robokin.course.copies import copy
 from robokin.course.guesses import Guess, guesses, keep, parse_line, read_guesses
 from robokin.course.handed_in import handed_in
@@ -28,9 +28,9 @@ page = test_browser.page  # records errors and requests to other hosts
 LAB = "irb140_motion"
 P1, P2 = f"{LAB}.p1", f"{LAB}.p2"
 OTHER = "scara_motion.p1"
-TYPED = next(f"{LAB}.{n}" for n, p in hub.lab(LAB).predictions.items() if p.unit)
-KEPT = "Kept for your report."
-RUN = "Kept in this browser only. Run > Run All Cells, and it is kept for your report."
+TYPED = next(p for p in book.ids(LAB, "predictions") if book.find(p, "predictions").unit)
+KEPT = "Saved for your report."
+RUN = "Saved in this browser only. Run > Run All Cells saves it for your report."
 
 
 def at(second):
@@ -81,7 +81,7 @@ def test_guesses_are_saved_by_notebook_in_chronological_order_without_duplicates
     assert os.stat(tmp_path / ".robokin" / "guesses.json").st_mtime_ns == before.st_mtime_ns
 
 
-def test_simultaneous_kernels_lose_no_guess(tmp_path):
+def test_simultaneous_kernels_lose_no_guesses(tmp_path):
     paths = [notebook(tmp_path / f"{k}.ipynb", ids=[P1]) for k in range(6)]
     wait = threading.Barrier(len(paths))
 
@@ -158,7 +158,7 @@ def test_file_that_is_not_ours_is_refused_and_not_overwritten(tmp_path, text):
     remarks = []
     made = guesses(handed_in(lab), remarks)
     assert made[0].choice == "c" and "guesses.json cannot be used" in remarks[0]
-    for choice in "ab":  # the first call sets the bad file aside; the second finds a good one
+    for choice in "ab":  # the first call moves the bad file aside; the second finds a good one
         keep(lab, [(P1, choice, at(ord(choice) - 90))])
     assert chosen(lab) == {P1: ["a", "b"]}
     assert (tmp_path / ".robokin" / "guesses.broken1.json").read_text() == text
@@ -190,7 +190,7 @@ def test_unknown_predictions_and_notebooks_are_left_out(tmp_path):
     assert chosen(lab) == {P1: ["b", "e", "c"]}
 
 
-def test_full_file_is_read_quickly(tmp_path):
+def test_large_file_of_guesses_is_read_quickly(tmp_path):
     names = {f"{k}.ipynb": {f"{LAB}.p{k % 900}": []} for k in range(20_000)}
     written(tmp_path, json.dumps({"guesses": 1, "notebooks": names}))
     lab = notebook(tmp_path / "lab.ipynb", "predict('" + "x" * 3_000_000, ids=[P1])
@@ -241,14 +241,27 @@ def test_guesses_are_saved_next_to_the_current_notebook(tmp_path):
 
 def test_line_of_guesses_is_parsed_or_refused():
     assert parse_line("") == parse_line("  ") == {}
-    made = {"p1": "b", "p10": "a", "p5": "-290", "p6": "1e-3"}
-    assert list(parse_line(" p1 b,p10  a , p5 -290,p6 1e-3").items()) == list(made.items())
-    for wrong in ("p1", "p1 b p2 c", "p1 b,", "1 b", "p1 <b>", "p1 b, p1 c", "b", "p1: b", "p1 g"):
+    made = {"p1": "b", "p10": "a", "p5": "-290", "p6": "1e-3", OTHER: "c"}
+    line = f" p1 b,p10  a , p5 -290,p6 1e-3, {OTHER} c"
+    assert list(parse_line(line).items()) == list(made.items())
+    for wrong in (
+        "p1",
+        ".p1 b",
+        "a/b.p1 b",
+        "p1 b p2 c",
+        "p1 b,",
+        "1 b",
+        "p1 <b>",
+        "p1 b, p1 c",
+        "b",
+        "p1: b",
+        "p1 g",
+    ):
         with pytest.raises(ValueError, match="guesses: wanted"):
             parse_line(wrong)
 
 
-def test_saved_guesses_take_precedence_over_the_line_and_the_cell(tmp_path):
+def test_saved_guesses_take_precedence_over_those_in_the_line_and_the_cells(tmp_path):
     asked, typed = predict(P1), predict(TYPED)
     right = "abcd"[asked.right]
     wrong = "abcd"[(asked.right + 1) % 4]
@@ -280,7 +293,7 @@ def test_saved_guesses_take_precedence_over_the_line_and_the_cell(tmp_path):
     assert made(f"{LAB}.p4") == Guess(f"{LAB}.p4") and TYPED != f"{LAB}.p4"
 
 
-def test_unreadable_line_is_reported(tmp_path):
+def test_invalid_line_of_guesses_in_a_notebook_is_reported(tmp_path):
     lab = notebook(tmp_path / "l.ipynb", f'predict("{P1}", "c")', 'report(who, guesses="all b")')
     remarks = []
     assert guesses(handed_in(lab), remarks)[0].choice == "c"
@@ -331,7 +344,7 @@ def answer(question, choice, again=False):
 
 
 def kept_as(name, letters):
-    """The saved form of these guesses, with the names of the options."""
+    """These guesses in the form in which they are saved, with the names of the options."""
     options = predict(name).options
     return [f"{letter}: {options['abcd'.index(letter)].name}" for letter in letters]
 
@@ -340,7 +353,7 @@ def told(question):
     return question.locator(".rk-asking > p")
 
 
-# Starts a hub for each context; `sent` records its messages, and `hear` lets the test answer.
+# Starts a hub for each context. `sent` contains its messages, and the test answers with `hear`.
 HUBS = """contexts => {
   window.sent = contexts.map(() => []);
   window.hear = [];
@@ -386,10 +399,10 @@ def test_each_guess_goes_to_the_kernel_of_its_notebook(page):
     answer(two, "b")
     answer(other, "c")
     assert made_in(page) == [[kept_as(P1, "b")], [kept_as(P1, "a")], []]
-    expect(told(two)).to_have_text("Python keeps it for your report as soon as it answers.")
+    expect(told(two)).to_have_text("Python will save it for your report as soon as it answers.")
     page.evaluate("() => { hear[0]({n: 1}); hear[1]({n: 1, error: 'the disk is full'}); }")
     expect(told(two)).to_have_text(KEPT)
-    expect(told(one)).to_have_text("Kept on this page only: the disk is full.")
+    expect(told(one)).to_have_text("Saved on this page only: the disk is full.")
     expect(told(other)).to_have_text(RUN.replace("in this browser", "on this page"))
     copies = [each.get_by_role("button", name="Copy my").count() for each in (one, two, other)]
     assert copies == [1, 0, 1], "only guesses that are not saved need the button"
@@ -398,8 +411,9 @@ def test_each_guess_goes_to_the_kernel_of_its_notebook(page):
     assert page.evaluate("sent[0][1].path") == "labs/b.ipynb"
 
 
-def test_guess_without_a_path_goes_to_the_only_kernel(page):
-    (one,) = shown(page, None)  # Notebook 7 has no tabs, and the model in VS Code has no context
+def test_guess_from_a_page_without_a_path_goes_to_the_only_kernel(page):
+    # Notebook 7 has no tabs, and the widget model in VS Code has no context
+    (one,) = shown(page, None)
     page.evaluate(HUBS, [{"path": "a.ipynb", "localPath": "a.ipynb"}])
     answer(one, "b")
     assert made_in(page) == [[kept_as(P1, "b")]]
@@ -427,7 +441,7 @@ def test_kernel_that_starts_late_receives_earlier_guesses(page):
 
 
 def exported(folder, *ids):
-    """Write two pages with questions, as in an export; return their paths."""
+    """Write two pages with questions, as an export does, and return their paths."""
     for name in ("ada.html", "bob.html"):
         html = "".join(predict(each).html for each in ids)
         (folder / name).write_text(f"<!DOCTYPE html><meta charset=utf-8><body>{html}")
@@ -449,7 +463,7 @@ def test_copy_button_copies_all_guesses_of_one_page(page, tmp_path):
     button = page.get_by_role("button", name="Copy my guesses for the report")
     assert button.count() == 1 and one.get_by_role("button").last.inner_text().startswith("Copy my")
     button.click()
-    line = f"{TYPED.partition('.')[2]} -290, p1 b, p2 c"
+    line = f"{TYPED.partition('.')[2]} -290, p1 b, {OTHER} d, p2 c"
     assert page.evaluate("copied") == f'report(who, guesses="{line}")'
     assert parse_line(line)
     page.goto(bob.as_uri())
@@ -466,7 +480,7 @@ def test_copy_button_copies_all_guesses_of_one_page(page, tmp_path):
     assert "You guessed here before." in told(two).inner_text()
 
 
-def test_line_can_be_selected_without_a_clipboard(page, tmp_path):
+def test_line_of_guesses_can_be_selected_if_there_is_no_clipboard(page, tmp_path):
     path, _ = exported(tmp_path, P1)
     page.add_init_script(
         'Object.defineProperty(navigator, "clipboard", {value: undefined});'
@@ -516,9 +530,9 @@ def run_all(jupyter, page, count):
     until(asked, f"{count} questions did not start", page)
 
 
-def test_guesses_arrive_from_jupyterlab(jupyter, page):
-    """The session has two copies of a lab, one of them renamed, and another lab; a restarted
-    kernel; Run All after guessing; and a notebook that is saved, closed and opened again.
+def test_guesses_made_in_jupyterlab_are_saved(jupyter, page):
+    """The session has two copies of a lab, one of which is renamed, and another lab. A kernel is
+    restarted, Run All is used after guessing, and a notebook is saved, closed and opened again.
     """
     folder = jupyter.labs / "guessing"
     lab = notebook(folder / "lab.ipynb", ids=[P1, P2, TYPED])
@@ -563,7 +577,11 @@ def test_guesses_arrive_from_jupyterlab(jupyter, page):
     page.get_by_role("menuitem", name="Kernel", exact=True).click()
     page.get_by_role("menuitem", name="Restart Kernel").first.click()
     page.locator(".jp-Dialog .jp-mod-accept").click()
-    until(lambda: page.evaluate("robokinHubs.size") == 2, "the old kernel's hub stays", page)
+    until(
+        lambda: page.evaluate("robokinHubs.size") == 2,
+        "the hub of the old kernel was not removed",
+        page,
+    )
     answer(asks.nth(1), "c")
     says(asks.nth(1), RUN)
     assert P2 not in chosen(lab)
@@ -585,6 +603,6 @@ def test_guesses_arrive_from_jupyterlab(jupyter, page):
     outputs = [o.data["text/html"] for cell in cells for o in cell.get("outputs", ())]
     assert outputs == [predict(name).html for name in (P1, P2, TYPED)], "an output contains a guess"
     assert "widget" not in lab.read_text()
-    # JupyterLab itself complains about the debugger state
+    # JupyterLab itself reports an error about the debugger state
     errors = [each for each in page.errors if "debugger state" not in each]
     assert errors == [] and page.outside == []

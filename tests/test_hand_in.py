@@ -40,8 +40,8 @@ def stored(path, *sources, saved=None):
 
 @pytest.fixture
 def desk(tmp_path, monkeypatch):
-    """A kernel's folder with `lab.ipynb`, opened in JupyterLab. `desk.run(source, when=...)` runs a
-    cell; `desk.judged` lists the reports that would have been written: (file, name).
+    """A kernel's folder with `lab.ipynb`, which is open in JupyterLab. `desk.run(source, when=...)`
+    runs a cell; `desk.judged` lists the reports that would have been written, as (file, name).
     """
     here = SimpleNamespace(folder=tmp_path, lab=tmp_path / "lab.ipynb", judged=[])
 
@@ -124,7 +124,7 @@ def test_deleted_cells_are_ignored(desk):
     assert report("Ada") == "written"
 
 
-def test_unchanged_cells_need_no_further_save(desk):
+def test_unchanged_cells_do_not_have_to_be_saved_again(desk):
     stored(desk.lab, IMPORTS, CHECK + "\n", saved=100)
     desk.run(IMPORTS, CHECK, when=200)
     assert report("Ada") == "written"
@@ -192,7 +192,7 @@ def test_missing_notebook_is_reported(desk):
     assert "no notebook with this lab's exercises" in report("Ada")
 
 
-def test_path_of_the_notebook_comes_from_vs_code(desk, monkeypatch):
+def test_path_of_the_notebook_is_taken_from_vs_code(desk, monkeypatch):
     monkeypatch.delenv("JPY_SESSION_NAME")
     stored(desk.lab, IMPORTS, CHECK)
     space = {"__vsc_ipynb_file__": str(desk.lab)}
@@ -201,7 +201,7 @@ def test_path_of_the_notebook_comes_from_vs_code(desk, monkeypatch):
     assert report("Ada") == "written"
 
 
-def test_links_in_the_page_are_safe():
+def test_file_names_in_links_are_escaped():
     note = Note('a<b>&_Ada.html is "your" report.\nx: holds')
     assert note._repr_html_() is None
     note.file = "a<b>&_Ada.html"
@@ -234,13 +234,13 @@ class Kernel:
         self.manager.shutdown_kernel(now=True)
 
     def run(self, source, seen=lambda text: None):
-        """Run a cell and return its output. `seen` is called with the output so far."""
+        """Run a cell and return its output. `seen` is called repeatedly with the output so far."""
         asked, said = self.client.execute(source), ""
         while True:
             try:
                 message = self.client.get_iopub_msg(timeout=PATIENCE)
             except Empty:
-                pytest.fail(f"the kernel is silent after: {said}")
+                pytest.fail(f"the kernel sends nothing after: {said}")
             content, kind = message["content"], message["msg_type"]
             if message["parent_header"].get("msg_id") != asked:
                 continue
@@ -257,8 +257,8 @@ class Kernel:
 
 
 def test_complete_session_writes_a_report(tmp_path):
-    """The session has an answer that raises an error, a correct answer that is not saved, and an
-    interrupt.
+    """The session contains an answer that raises an error, a correct answer that is not saved, and
+    an interrupt.
     """
     raising = "import robokin\nmy_posture = 1 / 0"
     cells = [IMPORTS, raising, CHECK, 'predict("start_here.p1", "b")']
@@ -281,7 +281,7 @@ def test_complete_session_writes_a_report(tmp_path):
 
         def interrupt(text):
             if "Running" in text and not stopped:
-                until(lambda: len(kernel.others()) > 1, "no kernel started to judge")
+                until(lambda: len(kernel.others()) > 1, "no kernel for judging has started")
                 stopped.append(kernel.manager.interrupt_kernel())
 
         assert "Stopped: no report was written." in kernel.run(REPORT, interrupt)
@@ -289,7 +289,7 @@ def test_complete_session_writes_a_report(tmp_path):
         assert page.read_bytes() == before and kernel.run("print(6 * 7)") == "42\n"
 
 
-@pytest.mark.skipif(os.name == "nt", reason="a login shell")
+@pytest.mark.skipif(os.name == "nt", reason="needs a login shell")
 def test_commands_of_lab_00_work(tmp_path):
     """The commands run in a login shell, in the clone's folder, without our Python on the path."""
     [told] = [cell for cell in _prose("00_start_here.ipynb") if "-m robokin.course report" in cell]
@@ -326,8 +326,8 @@ def _prose(name):
 
 
 def test_lab_00_can_be_handed_in_from_jupyterlab(jupyter, browser):
-    """A student's steps: change the answer and the name, run all, get the message to save, save,
-    hand in.
+    """The student changes the answer and the name, runs all cells, is told to save, saves and hands
+    in.
     """
     name = "handing in/00_start_here.ipynb"
     lab = jupyter.labs / name

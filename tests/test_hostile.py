@@ -1,8 +1,8 @@
-"""Notebooks that attack their page: a student may hand in anything, and a teacher opens it. No
-foreign script may run, nothing may be fetched, and the header of a report must not change.
+"""Malicious notebooks: a student may hand in anything, and a teacher opens it. No foreign script
+may run, nothing may be fetched, and the header of a report must not change.
 
-The attack values are put wherever a notebook has room for them. They are effective: in a carelessly
-written page they run and fetch (the first test).
+The attack values are inserted wherever a notebook can contain them. The first test shows that they
+are effective: in a carelessly written page they run scripts and fetch addresses.
 """
 
 import base64
@@ -106,7 +106,7 @@ RUNS = (  # elements and attributes that run a script
     '# a" onclick="JS',
     "<h2 id=\"x\" onclick='JS'>heading</h2>",
 )
-LEADS = (  # elements that lead to another address, immediately or on a click
+LEADS = (  # elements that open another address, immediately or on a click
     '<meta http-equiv="refresh" content="0;url=URL/refresh">',
     '<base href="URL/">',
     '<a href="javascript:JS">a link</a>',
@@ -194,7 +194,7 @@ VERDICTS = """() => [...document.querySelectorAll(".rk-report [class]")].map(e =
 
 @pytest.fixture(scope="module")
 def listening():
-    """A server that should receive no requests: its address, and the requests it received."""
+    """A server that should receive no requests: its address, and the requests that it received."""
     asked = []
 
     class Handler(http.server.BaseHTTPRequestHandler):
@@ -221,7 +221,7 @@ def values(url):
 
 
 def attacking(url):
-    """A notebook with every attack value in every place."""
+    """A notebook that contains every attack value in every possible place."""
     cells = []
     for value in values(url):
         outputs = [
@@ -370,7 +370,7 @@ class Opened:
 
 @pytest.fixture(scope="module")
 def seen(browser, listening, tmp_path_factory):
-    """The contents of the opened pages, harmless and attacked, and the requests that they made."""
+    """The contents of the opened pages, benign and malicious, and the requests that they made."""
     folder = tmp_path_factory.mktemp("hostile")
     opened = Opened(browser, folder)
     quiet = new_notebook(cells=[new_markdown_cell("Words"), new_code_cell("1 + 1")])
@@ -399,7 +399,7 @@ def seen(browser, listening, tmp_path_factory):
     return result
 
 
-def test_attack_values_are_many_and_effective(seen):
+def test_attack_values_are_numerous_and_effective(seen):
     assert len(set(VALUES)) >= 60
     assert seen.careless.hacked == 1 and len(seen.asked_by_careless) > 5
 
@@ -420,7 +420,7 @@ def test_notebook_html_contains_only_allowed_elements(seen, name):
 
 
 def test_notebook_does_not_change_the_header(seen):
-    assert seen.notebook.head == seen.harmless.head, "the picture or the words differ"
+    assert seen.notebook.head == seen.harmless.head, "the picture or the text differs"
     assert seen.notebook.verdicts == seen.harmless.verdicts
     assert len(seen.harmless.verdicts) >= 10
 
@@ -450,15 +450,15 @@ def test_our_own_outputs_are_unchanged():
         predict("irb140_motion.p1", "a"),
     ):
         same = again(made.html, "n").replace(" nonce=n", "")
-        mine = quiet(made.html)  # except what it says to readers in JupyterLab
+        mine = quiet(made.html)  # without the text for readers in JupyterLab
         assert re.sub("[0-9a-f]{12}", "", same) == re.sub("[0-9a-f]{12}", "", mine)
 
 
-def test_older_questions_are_written_anew():
+def test_questions_of_older_notebooks_are_rewritten():
     """Older notebooks store the view as a string in the data of the question."""
     name = "irb140_motion.p1"
     made = predict(name, "a")
-    assert ".show(" in made.html, "the view has a call of its own"
+    assert ".show(" in made.html, "the call of the view is separate"
     data = inert(made.data | {"view": shown(made.view())})
     older = output("prediction.ask", made.id, data, "<p>words</p>")
     assert again(older, "n") == again(made.html, "n")
@@ -486,10 +486,10 @@ def test_report_opens_each_question_with_the_first_guess():
     assert '"choice":null' in again(stored, "n", {})
     assert '"choice":null' in again(stored, "n", {"irb140_motion.p1": "no letter"})
     number = next(
-        f"{lab}.{n}"
+        name
         for lab in book.labs()
-        for n, each in book.lab(lab).predictions.items()
-        if each.unit
+        for name in book.ids(lab, "predictions")
+        if book.find(name, "predictions").unit
     )
     assert '"choice":"-12.5"' in again(predict(number).html, "n", {number: "-12.5"})
     assert '"choice":null' in again(predict(number).html, "n", {number: "nan"})
@@ -623,7 +623,7 @@ def test_every_character_is_visible_or_escaped():
     assert kept.encode() and kept.startswith("".join(every[:0xD800]) + r"\ud800\ud801")
 
 
-def test_all_texts_in_json_become_visible():
+def test_hidden_characters_in_json_become_visible():
     assert all_visible({"a\0": [1, None, ("\u202e",)]}) == {r"a\x00": [1, None, [r"\u202e"]]}
     deep = []
     for _ in range(200):
@@ -639,7 +639,7 @@ PIECES += ("<b></i>", "\\begin{a}", "`", "*a_", "\x1b[31m", "\u202e", "- a\n", "
 @pytest.mark.parametrize("piece", PIECES)
 @pytest.mark.parametrize("size", [20_000, 1_000_000])
 def test_page_is_converted_quickly(piece, size, tmp_path):
-    """The limit is 2 s of CPU time per megabyte, for any content."""
+    """The limit is 2 s of CPU time per megabyte, whatever the content."""
     text = (piece * (size // len(piece) + 1))[:size]
     outputs = [
         new_output("stream", text=text),
@@ -667,7 +667,7 @@ def test_deep_nesting_is_detected():
 
 
 LABS = {path.stem[:2]: path for path in NOTEBOOKS.glob("[0-9]*.ipynb")}
-SAMPLE = ("03", "08", "09", "10", "11")  # these labs contain every kind of view
+SAMPLE = ("03", "08", "09", "10", "13")  # these labs contain every kind of view
 AWAKE = """() => [...document.querySelectorAll(".robokin-player")]
   .filter(each => each.checkVisibility())
   .map(each => "ready" in each.dataset && !each.querySelector(":scope > img"))"""
@@ -675,7 +675,9 @@ AWAKE = """() => [...document.querySelectorAll(".robokin-player")]
 
 @pytest.fixture(scope="module")
 def stored_report(tmp_path_factory):
-    """Lab number -> the page of its report, made without a kernel, and the script calls in it."""
+    """A function of a lab's number that returns the page of the lab's report, made without a
+    kernel, and the script calls in it.
+    """
     folder = tmp_path_factory.mktemp("reports")
     return cache(lambda name: report_of(LABS[name], folder))
 
@@ -687,9 +689,9 @@ def report_of(path, folder):
     if slug in book.labs():
         data["lab"] = slug
         data["predictions"] = [
-            {"id": f"{slug}.{n}", "choice": None, "right": None, "confusion": None}
+            {"id": name, "choice": None, "right": None, "confusion": None}
             | {"when": None, "later": []}
-            for n in book.lab(slug).predictions
+            for name in book.ids(slug, "predictions")
         ]
     page = folder / f"{path.stem}.html"
     page.write_text(page_of(data, notebook, path.parent), encoding="utf-8")
@@ -724,7 +726,7 @@ def alive(page, calls):
     assert guess_all(page) == calls.count("prediction.ask")
     awake(page)
     after = page.evaluate(AWAKE)
-    assert len(after) == len(calls) and all(after), "a view behind a prediction is dead"
+    assert len(after) == len(calls) and all(after), "a view behind a prediction did not start"
     return len(after) - len(before)
 
 

@@ -1,5 +1,5 @@
-"""The house rules of the repository: which module may import which, the cost of `import robokin`,
-and the promises of the README.
+"""The rules of the repository: which modules a module may import, the cost of `import robokin`, and
+the promises of the README.
 """
 
 import ast
@@ -45,11 +45,12 @@ LAYERS = {
     "robokin.quaternion": ("robokin._arrays", "robokin._validate"),
     "robokin.transform": ("robokin._arrays", "robokin._validate", "robokin.quaternion"),
     "robokin.arms": BASE,
-    # uses any value with a `lerp`, but no arms
+    # uses any object with a `lerp` method, but no arms
     "robokin.motion": ("robokin._arrays", "robokin._validate", "robokin.units"),
     "robokin.motion.recording": (*BASE, "robokin.arms", "robokin.motion.derivatives"),
     "robokin.jobs": KINEMATICS,
     "robokin.show": KINEMATICS,
+    "robokin.show.conveyor": (*KINEMATICS, "robokin.jobs", "robokin.show"),
     "robokin.show.explorer": ("robokin",),
     "robokin.show.plan_explorer": (*KINEMATICS, "robokin.jobs", "robokin.show"),
     "robokin.show.motors": (*KINEMATICS, "robokin.show", "robokin.jobs.steppers"),
@@ -68,7 +69,7 @@ HEAVY = DRAWING | {
     "importlib.resources",
 }
 
-# Libraries of the extras "labs" and "site", for tasks that we should not program ourselves.
+# Libraries of the extras "labs" and "site", for what we should not implement ourselves.
 OUTSIDE = {
     "robokin.course.copies": {"nbformat"},
     "robokin.course.export": {"jinja2", "markupsafe", "math_core", "nbconvert", "nbformat"},
@@ -108,12 +109,14 @@ def test_modules_import_only_lower_layers(module):
         else:
             allowed_here = {"numpy", *sys.stdlib_module_names, *OUTSIDE.get(module, ())}
             assert name.split(".")[0] in allowed_here, f"{module} imports {name}"
-        assert "pyplot" not in name, f"{module} uses pyplot, but a figure is a value"
+        assert "pyplot" not in name, (
+            f"{module} uses pyplot, but a figure must not depend on global state"
+        )
 
 
 def test_layer_check_detects_a_planted_import():
-    # The rule above depends on the parser, which must resolve relative imports and names that a
-    # package re-exports.
+    # The rule above depends on the import parser, which must resolve relative imports and names
+    # that a package re-exports.
     assert "robokin.arms.catalogue" in _imports("robokin.arms")
     assert {"numpy", "robokin.transform", "robokin.arms.arm"} <= _imports("robokin.arms.branches")
     assert "robokin.arms.spherical_wrist" in _imports("robokin.arms.catalogue")
@@ -133,7 +136,7 @@ def test_import_loads_nothing_heavy():
     assert outside <= {"numpy"}, outside
 
 
-def test_top_level_contains_only_the_agreed_files():
+def test_top_level_folder_contains_only_the_agreed_files():
     found = {
         entry.name for entry in ROOT.iterdir() if not entry.name.startswith((".", "__pycache__"))
     }
@@ -220,7 +223,7 @@ def test_show_without_matplotlib_says_what_to_install():
     ), run.stderr
 
 
-def test_package_alone_saves_a_page_in_eight_lines(tmp_path):
+def test_eight_lines_of_the_readme_save_a_page(tmp_path):
     section = README.split("## The package alone\n")[1].split("\n## ")[0]
     (code,) = re.findall(r"^```python\n(.*?)^```", section, re.M | re.S)
     assert len([line for line in code.splitlines() if line]) == 8
@@ -230,7 +233,9 @@ def test_package_alone_saves_a_page_in_eight_lines(tmp_path):
 
 
 def test_no_text_suggests_installing_robokin_from_an_index():
-    """Texts for readers say how to install from a clone; only pyproject.toml names the package."""
+    """The user documentation says how to install from a clone; only pyproject.toml names the
+    package.
+    """
     read = [ROOT / "README.md", ROOT / "CONTRIBUTING.md", ROOT / "CHANGELOG.md"]
     read += [*MODULES.values(), *(ROOT / "notebooks").glob("**/*.ipynb")]
     for path in read:

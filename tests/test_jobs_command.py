@@ -93,7 +93,7 @@ def test_success_returns_0_and_replaces_the_log(tmp_path):
         "the tasks are not in alphabetical order"
     )
     assert "visited 1 of 2 points in 3.04867394355 s (T = 4 s)" in run.out, (
-        "errata S0-f: the printed program hangs on this task"
+        "errata S0-f: the printed program does not end on this task"
     )
     assert "yesterday" not in (tmp_path / "output.log").read_text()
 
@@ -311,7 +311,7 @@ def test_messages_do_not_reach_the_log_of_the_caller(tmp_path, monkeypatch, caps
 # ---- Hints about the content of a file
 
 
-def test_oddities_in_a_file_are_reported(tmp_path):
+def test_anomalies_in_a_file_are_reported(tmp_path):
     tasks = write(
         tmp_path / "tasks",
         degrees=example(**{"q'": [20, 20, 20]}),
@@ -383,7 +383,7 @@ def test_import_robokin_does_not_import_jobs():
 def mutants(folder, count, seed=0):
     """Write `count` task files to a folder, most of them invalid; yield (name, words, case).
 
-    words: text that the reason must contain, None for a good task; case: the reference case from
+    words: text that the reason must contain, or None for a good task; case: the reference case from
     which the file was made, and the kind of task.
     """
     rng = np.random.default_rng(seed)
@@ -521,15 +521,15 @@ def _not_utf8(data, rng):
 
 def _huge_time(data, rng):
     data["T"] = [1e300, 10**300, 1.7976931348623157e308][rng.integers(3)]
-    return data, f"({len(data['pi'])} of {len(data['pi'])})"  # all points are served
+    return data, f"({len(data['pi'])} of {len(data['pi'])})"  # all points are visited
 
 
 def _shown(point):
     return f"({', '.join(f'{x:.12g}' for x in point)})"
 
 
-# kind -> a function that returns the content (a dict, bytes, or None for a folder) and text in the
-# reason (None for a good task)
+# For each kind: a function that returns the content (a dict, bytes, or None for a folder) and text
+# that the reason contains (None for a good task).
 MUTATIONS = {
     "good": lambda data, rng: (data, None),
     "good with more keys": lambda data, rng: (data | {"q": [], "note": [[["x"]]]}, None),

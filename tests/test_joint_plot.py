@@ -1,4 +1,4 @@
-"""The curves that a notebook shows for `plot_joints`: the same numbers as the figure."""
+"""The curves that a notebook shows for `plot_joints`, compared with the motion and the figure."""
 
 import json
 import re
@@ -35,14 +35,14 @@ def at(fig, whole):
     return np.stack([np.interp(fig.page["times"], T, column) for column in whole.T], axis=-1)
 
 
-def test_two_samples_are_enough():
+def test_two_samples_are_enough_for_a_plot():
     fig = plot_joints(IRB140, [0, 2], [[0.0] * 6, [0.5] * 6])
     np.testing.assert_allclose(values(fig, 0), [[0.0] * 6, [0.5] * 6], atol=1e-4)
     assert "joint curves" in html(fig)
 
 
 @pytest.mark.parametrize(("arm", "q"), [(IRB140, Q), (SCARA, SLIDING)])
-def test_curves_of_the_page_are_those_of_the_motion(arm, q):
+def test_curves_of_the_page_match_the_motion(arm, q):
     fig, found = plot_joints(record(arm, T, q)), record(arm, T, q)
     for k, whole in enumerate([found.q, found.v, found.a]):
         assert abs(whole).max() > 0.1
@@ -54,13 +54,13 @@ def test_curves_of_the_page_are_those_of_the_motion(arm, q):
     np.testing.assert_allclose(values(few, 1), 2 * at(few, found.v), rtol=0, atol=1e-3)
 
 
-def test_speed_and_joint_limits_are_those_of_the_arm():
+def test_speed_and_joint_limits_match_those_of_the_arm():
     panels = plot_joints(record(IRB140, T, Q)).page["panels"]
     np.testing.assert_allclose(panels[0]["limits"], IRB140.limits / deg, atol=6e-4)
     speeds = np.stack([-IRB140.speed_limits, IRB140.speed_limits], axis=-1) / deg
     np.testing.assert_allclose(panels[1]["limits"], speeds, atol=6e-4)
     assert panels[2]["limits"] is None
-    assert panels[0]["near"] == [[[2, 1]]], "joint 3 passes its upper limit"
+    assert panels[0]["near"] == [[[2, 1]]], "joint 3 exceeds its upper limit"
 
 
 def test_missing_postures_and_jumps_break_the_curves():
@@ -77,10 +77,10 @@ def test_missing_postures_and_jumps_break_the_curves():
     assert [text for _, text in first if text] == ["q4 jumps by 360.0°"]
     assert [time for time, _ in second] == [time for time, _ in first]
     alarms = [text for text, alarm in fig.page["notes"] if alarm]
-    assert "joint 4 in 801" in alarms[0], "its samples 1200 to 2000"
+    assert "joint 4 in 801" in alarms[0], "wanted the samples 1200 to 2000 of joint 4"
 
 
-def test_a_spike_extends_beyond_the_panel_and_does_not_coarsen_the_curves():
+def test_spike_is_cut_off_and_does_not_reduce_the_precision_of_the_other_curves():
     q = Q.copy()
     q[1000:, 3] += 360 * deg
     naive = np.gradient(q, T, axis=0)  # includes a jump of 360° in one step
@@ -89,7 +89,7 @@ def test_a_spike_extends_beyond_the_panel_and_does_not_coarsen_the_curves():
     panel, drawn = fig.page["panels"][1], values(fig, 1) / deg
     low, step, count, _ = panel["axes"]["turn"]["scale"]
     high = low + step * (count - 1)
-    assert high < 100 and drawn[:, 3].max() > 1.5 * high, "the spike goes beyond the panel"
+    assert high < 100 and drawn[:, 3].max() > 1.5 * high, "the spike should extend beyond the panel"
     others = [j for j in range(6) if j != 3]
     np.testing.assert_allclose(drawn[:, others], at(fig, naive)[:, others] / deg, atol=0.01)
 
@@ -114,7 +114,7 @@ RECORD = """
 
 
 @pytest.mark.parametrize("width", [914, 390])
-def test_figure_becomes_curves_with_axes_limits_and_sentences(browser, width):
+def test_browser_draws_curves_with_axes_limits_and_notes(browser, width):
     page = browser.new_page(viewport={"width": width, "height": 900})
     said = []
     page.on("pageerror", lambda error: said.append(str(error)))
@@ -141,7 +141,7 @@ def test_figure_becomes_curves_with_axes_limits_and_sentences(browser, width):
     assert said == []
 
 
-def test_curves_in_a_report_come_from_their_data_alone():
+def test_report_draws_curves_only_from_their_data():
     fig = plot_joints(record(IRB140, T, Q), title="Mine")
     text = html(fig)
     made = again(text, "n0nce")

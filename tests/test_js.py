@@ -1,4 +1,4 @@
-"""The scripts of the page: one format, correct types, and the same data types as in Python."""
+"""The scripts of the page have one format, correct types, and the same data types as Python."""
 
 import ast
 import contextlib
@@ -28,7 +28,7 @@ SCRIPTS = sorted([*FOLDER.glob("*.js"), *SITE.glob("*.js"), NARROW])
 
 
 def not_installed(error):
-    """Skip the test if there is no network; in CI, let it fail."""
+    """Skip the test if there is no network; under CI, let it fail."""
     report = pytest.fail if os.environ.get("CI") else pytest.skip
     report(f"Prettier and TypeScript are not installed, and there is no network: {error}")
 
@@ -72,7 +72,7 @@ def scanned():
 
 
 def test_functions_and_files_are_short():
-    """A function has at most 60 lines, including inner functions; a script at most 350."""
+    """A function has at most 60 lines, including inner functions, and a script at most 350."""
     functions = [
         (path.name, name, first, count)
         for path, found in scanned().items()
@@ -86,7 +86,7 @@ def test_functions_and_files_are_short():
     assert not {name: length for name, length in lengths.items() if length > 350}
 
 
-# A constant that both languages define -> the test in test_twin.py that compares the two.
+# For each constant that both languages define: the test in test_twin.py that compares the two.
 TWINS = {
     ("STEPS", 64): "test_page_refines_the_same_maxima",
     ("MOST", 200): "test_page_refines_the_same_maxima",
@@ -95,7 +95,7 @@ PLAIN = {*range(-1, 101), 0.002, 0.5, 200, 400}  # values that may be equal by c
 
 
 def numbers_of(path):
-    """The top-level numbers of a Python module: dict of name -> value."""
+    """The top-level numbers of a Python module: a dict that maps names to values."""
     found = {}
     for node in ast.parse(path.read_text(encoding="utf-8")).body:
         pairs = []
@@ -114,9 +114,9 @@ def numbers_of(path):
     return found
 
 
-def test_no_constant_is_defined_in_python_and_in_a_script():
-    """The page gets each constant from Python, or a test compares both. The test looks for equal
-    names and equal values.
+def test_no_constant_is_defined_both_in_python_and_in_a_script():
+    """The page gets each constant from Python, or a test compares the page's value with Python's.
+    This test looks for equal names and equal values.
     """
     ours = [pair for path in PACKAGE.rglob("*.py") for pair in numbers_of(path).items()]
     assert {("LEAP", 0.002), ("FORBIDDEN", 255), ("NOTHING", -32768)} <= set(ours), (
@@ -165,7 +165,7 @@ def test_untyped_declarations_are_detected():
 def test_no_declaration_is_untyped(path):
     text = path.read_text(encoding="utf-8")
     assert not [each for each in types_in(text) if LOOSE.search(each)]
-    assert not re.findall(r"@ts-\w+", text), "correct the fault instead of hiding it"
+    assert not re.findall(r"@ts-\w+", text), "correct the fault instead of suppressing the message"
 
 
 def test_page_types_match_those_of_python():
@@ -174,20 +174,23 @@ def test_page_types_match_those_of_python():
         assert stored == text, f"{path.name}: run .venv/bin/python tests/javascript.py types"
 
 
-KEYS = {  # kind of page -> a key that only this kind has, and a script that uses it
+KEYS = {  # for each kind of page: a key that only this kind has, and a script that uses it
     "joint": ("rows: FactRow[];", "joint_explorer.js"),
-    "levers": ("target: PagePose;", "levers_explorer.js"),
+    "levers": ("curve: PageCosts;", "levers_explorer.js"),
+    "elbow": ("elbows: string[];", "elbow_explorer.js"),
     "target": ("turning: number[];", "target_explorer.js"),
     "motion": ("samples: number;", "blended.js"),
+    "rotation": ("across: number[];", "rotation_explorer.js"),
     "plan": ("forbidden: number;", "plan_explorer.js"),
     "tour": ("spare: number[][];", "tour_explorer.js"),
+    "singularity": ("beside: number[];", "singularity_explorer.js"),
 }
 THINGS = {get_args(table.__annotations__["kind"])[0]: table for table in get_args(PageThing)}
 
 
 def test_tsc_refuses_a_changed_key(tmp_path):
-    """When keys of one kind of page or thing change, its scripts no longer type-check, and those of
-    other kinds still do. One key of a page is changed, or every key of a thing except its kind.
+    """If keys of one kind of page or thing change, its scripts no longer type-check, but those of
+    other kinds do. The test changes one key of a page, or every key of a thing except its kind.
     """
     for path in [*FOLDER.glob("*.js"), FOLDER / "page.d.ts"]:
         shutil.copy(path, tmp_path)

@@ -1,5 +1,5 @@
-"""Handed-in notebooks are judged again, and their answers get the correct points whatever the
-author wrote.
+"""Notebooks that are handed in are judged again, and their answers get the correct points, whatever
+the student wrote.
 
 The labs are written here, so that the points for every answer are known in advance.
 """
@@ -36,7 +36,7 @@ IMPORTS = "from robokin.course import check, predict, variant\nimport numpy as n
 # --- Points for answers ---------------------------------------------------------------------------
 
 
-def test_answers_that_are_missing_or_raise_or_never_end_are_judged(tmp_path):
+def test_answers_that_are_missing_raise_an_error_or_never_end_are_judged(tmp_path):
     lab = stored(
         tmp_path / "03_irb140_motion Ada.ipynb",
         IMPORTS,
@@ -239,7 +239,7 @@ def test_cpu_limit_includes_child_processes(tmp_path, monkeypatch):
 
 
 def test_total_time_and_memory_are_limited(tmp_path):
-    """Work beyond the limits does not run or raises an error; earlier results count."""
+    """Work beyond the limits is not run or raises an error; earlier results count."""
     spin = "import time\nend = time.process_time() + 3\nwhile time.process_time() < end:\n    pass"
     lab = stored(
         tmp_path / "lab.ipynb",
@@ -275,7 +275,7 @@ def test_sleeping_cell_is_stopped_and_not_judged(tmp_path, monkeypatch):
     begun = time.monotonic()
     judged = judge_notebook(handed_in(lab), "Ada", Limits(cell=1, answer=1, all=80))
     assert time.monotonic() - begun < 500
-    # the machine may be too slow for other cells as well, so nothing else is certain
+    # on a slow machine other cells may time out as well, so nothing else is certain
     assert {each.state for each in judged.exercises} == {"not judged"}
     assert {each.points for each in judged.exercises} == {0}
     assert all("too slow" in each.says[0] for each in judged.exercises)
@@ -283,7 +283,7 @@ def test_sleeping_cell_is_stopped_and_not_judged(tmp_path, monkeypatch):
     assert any("only ending the kernel" in remark for remark in stopped)
 
 
-def test_unjudged_exercise_does_not_contradict_outputs(tmp_path):
+def test_exercise_that_was_not_judged_does_not_contradict_its_output(tmp_path):
     run = NotebookRun(
         new_notebook(), {"irb140_motion.1": Call(3, "irb140_motion.1", "x", "")}, "Ada", QUICK
     )
@@ -388,7 +388,7 @@ HOSTILE = ("<", " ", "-", "(", '"', "check(", "\\", "\n ", "?\n", "&#9", "1;", "
 @pytest.mark.parametrize(
     ("size", "pieces"), [(100_000, HOSTILE), (1_000_000, HOSTILE[4:]), (4_000_000, HOSTILE[:4])]
 )
-def test_reading_takes_linear_time(size, pieces, tmp_path):
+def test_reading_a_notebook_takes_linear_time(size, pieces, tmp_path):
     """The limit is 2 s of CPU time per megabyte."""
     call, lab = 'check("irb140_motion.1", x)\n', tmp_path / "lab.ipynb"
     for piece in pieces:
@@ -429,7 +429,7 @@ def test_reading_an_invalid_notebook_takes_linear_time(text, tmp_path):
 
 
 def tried(path):
-    """Return whether a notebook can be read. If so, assert that everything that is done with it
+    """Return whether a notebook can be read. If it can, assert that everything that is done with it
     outside a kernel works.
     """
     try:
@@ -485,7 +485,7 @@ def test_invalid_notebooks_are_refused(change, readable, tmp_path):
         'check("irb140_motion.1", 1' + " " * 200_000 + ")",
     ],
 )
-def test_exercise_in_a_cell_that_cannot_be_parsed_is_broken(source, tmp_path):
+def test_exercise_in_a_cell_that_cannot_be_parsed_counts_as_broken(source, tmp_path):
     lab = tmp_path / "irb140_motion.ipynb"
     lab.write_text(json.dumps(new_notebook(cells=[cell(source)])))
     assert tried(lab)
@@ -507,7 +507,7 @@ def test_missing_and_unreadable_files_are_refused(tmp_path):
 
 
 @pytest.mark.skipif(sys.platform != "linux", reason="file names are Unicode on other systems")
-def test_file_name_that_is_not_utf_8_works(tmp_path):
+def test_notebook_with_a_file_name_that_is_not_utf_8_is_read(tmp_path):
     path = stored(tmp_path / "lab.ipynb", "1").rename(os.fsdecode(os.fsencode(tmp_path) + b"/\xe9"))
     assert tried(path) and handed_in(path).title == "\N{REPLACEMENT CHARACTER}"
 

@@ -128,7 +128,7 @@ def test_custom_law_is_a_function_of_the_fraction_of_time():
 
 
 @pytest.mark.parametrize("progress", [None, 3, "linear", [0, 1]])
-def test_progress_must_be_callable(progress):
+def test_progress_of_a_custom_law_must_be_callable(progress):
     with pytest.raises(TypeError, match="progress: wanted a function, got"):
         TimeLaw(2, progress)
 
@@ -143,7 +143,7 @@ def test_progress_must_be_callable(progress):
         (lambda x: x[:2], r"progress: wanted s of shape \(3,\), got shape \(2,\)"),
     ],
 )
-def test_results_of_progress_are_checked(progress, message):
+def test_results_of_the_progress_function_are_checked(progress, message):
     with pytest.raises(ValueError, match=message):
         TimeLaw(2, progress)([0, 1, 2])
 

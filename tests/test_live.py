@@ -1,5 +1,5 @@
-"""Views that ask a kernel, in a real JupyterLab. Awake, they show Python's answer for the last
-position; asleep, they show the stored answer and say so.
+"""Views that ask a kernel, in a real JupyterLab. With a kernel, they show Python's answer for the
+last position; without one, they show the stored answer and a note that they are inactive.
 """
 
 import itertools
@@ -62,7 +62,7 @@ def test_answer_and_drawing_match_the_plan():
         moments = said["moments"].astype(float)
         np.testing.assert_allclose(moments[[0, -1]], known.path[[0, -1]], atol=1e-6)
         turned = abs(np.diff(moments, axis=0)).sum()
-        assert turned == pytest.approx(known.cost, rel=0.2, abs=1e-5)  # corners are cut
+        assert turned == pytest.approx(known.cost, rel=0.2, abs=1e-5)  # the path drawn cuts corners
         if known.found:
             near = distances(ARM, moments, question["obstacle"])
             assert near.min() >= question["distance"] - 1e-6
@@ -97,7 +97,7 @@ def test_unchecked_paths_are_judged_by_lever_clearance():
     assert seen == {(1, True), (1, False), (2, True), (2, False)}
 
 
-def test_cube_agrees_with_distances_and_a_simple_search():
+def test_cube_of_postures_agrees_with_distances_and_a_simple_search():
     question = next(questions(1)) | {"obstacle": [1.2, 1.3], "target": [1.9, 0.3]}
     said = plan_explorer(ARM, START, (1.9, 0.3), (1.2, 1.3)).answer(question)
     cube, n = said["cube"], len(said["cube"])
@@ -190,7 +190,7 @@ def stored(tmp_path_factory):
     return path
 
 
-def test_live_view_wakes_after_run_all_and_shows_the_last_position(jupyter, quiet, stored):
+def test_live_view_starts_after_run_all_and_shows_the_last_position(jupyter, quiet, stored):
     (jupyter.labs / NAME).write_bytes(stored.read_bytes())
     quiet.add_init_script(CLIPBOARD)
     jupyter.open(quiet, NAME)
@@ -214,10 +214,10 @@ def test_live_view_wakes_after_run_all_and_shows_the_last_position(jupyter, quie
     quiet.locator("[data-handle=H]").evaluate(QUICK, 200)
     shows_what_python_says(quiet)
     now = int(quiet.locator(".robokin-player").get_attribute("data-asked"))
-    assert now - asked < 200, "positions that are passed quickly were not skipped"
+    assert now - asked < 200, "the view did not skip positions that the pointer passed quickly"
     assert quiet.errors == [] and quiet.outside == []
 
-    # a restarted kernel does not know the page
+    # a restarted kernel has no connection to the page
     quiet.get_by_role("menuitem", name="Kernel", exact=True).click()
     quiet.get_by_role("menuitem", name="Restart Kernel").first.click()
     quiet.locator(".jp-Dialog .jp-mod-accept").click()
@@ -246,7 +246,7 @@ def test_live_view_wakes_after_run_all_and_shows_the_last_position(jupyter, quie
     assert quiet.errors == [] and quiet.outside == []
 
 
-# Moves the pointer ten times per frame, too fast for a view to follow.
+# Moves the pointer ten times per frame, which is too fast for a view.
 QUICK = """(node, count) => new Promise(done => {
   const r = node.getBoundingClientRect(), x = r.x + r.width / 2, y = r.y + r.height / 2;
   const tell = (type, clientX, clientY) =>
@@ -317,7 +317,7 @@ def shows_what_python_says(tab):
 # --- Stored and exported views --------------------------------------------------------------------
 
 
-def test_exported_page_sleeps_except_for_parts_that_need_no_kernel(quiet, stored, tmp_path):
+def test_exported_page_is_inactive_except_for_parts_that_need_no_kernel(quiet, stored, tmp_path):
     export(stored, tmp_path / "live.html")
     quiet.goto((tmp_path / "live.html").as_uri())
     asleep(quiet)

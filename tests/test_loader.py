@@ -105,7 +105,9 @@ def test_alpha_keeps_its_value_on_the_axis():
 
 
 def test_gamma_can_reach_270_degrees():
-    """If the outer lever is longer, the inner one can point down and back, up to 270 degrees."""
+    """If the outer lever is longer than the inner one, the inner one can point down and back, and
+    gamma can be as large as 270 degrees.
+    """
     arm, alpha = loader_arm(1.0, 2.0), 0.3
     gamma, beta = np.meshgrid([-30, 1, 89, 179, 181, 269, 269.9], [0.03, 0.3, 20, 70, 150])
     q = np.stack([alpha / deg + 0 * gamma, gamma, beta], axis=-1).reshape(-1, 3) * deg
@@ -192,14 +194,14 @@ def test_unreachable_coordinates_get_a_reason():
     # the inner bound of errata S3-r
     assert out_of_reach(arm, (0.3, 0, 0.1)) == ["the point is 183.8 mm too near to joint 2"]
     assert len(out_of_reach(arm, (2, 0, -1))) == 2
-    # the tolerance is 1e-12 of the reach
+    # the tolerance is 1e-12 times the reach
     assert out_of_reach(arm, (1, 0.5, -1.8e-12)) == [] and out_of_reach(arm, (1, 0.5, -2e-12))
     assert out_of_reach(arm, (1.9, 0, 0)) == [] and out_of_reach(arm, (0, 0, 0.5)) == []
     assert "did you mean millimetres" in explain(arm, (1200, 0, 300), 1)
     assert "183.8 mm too near" in explain(arm, Transform(translation=(0.3, 0, 0.1)), 1)
 
 
-def test_wrong_arguments_are_refused():
+def test_invalid_arguments_are_refused():
     for A, B in ((0, 1), (-1, 1), (1, np.nan), ("a", 1), ([1, 2], 1)):
         with pytest.raises(ValueError, match="A: |B: "):
             loader_arm(A, B)
@@ -209,4 +211,4 @@ def test_wrong_arguments_are_refused():
         with pytest.raises(TypeError, match="loader_arm"):
             station_postures(arm, [(1, 0, 0)])
         with pytest.raises(TypeError, match="loader_arm"):
-            out_of_reach(arm, "a")  # the error names the wrong arm, not the wrong point
+            out_of_reach(arm, "a")  # the error names the invalid arm, not the invalid point

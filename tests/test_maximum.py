@@ -58,6 +58,6 @@ def test_minimum_is_the_maximum_of_the_negative():
         ),
     ],
 )
-def test_errors_name_the_wrong_argument_and_what_is_wanted(call, kind, message):
+def test_errors_name_the_invalid_argument_and_say_what_is_wanted(call, kind, message):
     with pytest.raises(kind, match=message):
         refined_maximum(*call)

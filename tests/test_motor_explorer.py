@@ -34,8 +34,8 @@ def told(motor):
 
 @pytest.fixture(scope="module")
 def rotor(context):
-    """A function that calls the page's functions: `rotor(name, motor, load, load_inertia,
-    *arguments)` -> the returned value.
+    """`rotor(name, motor, load, load_inertia, *arguments)` calls the page's function `name` and
+    returns its value.
     """
     page = context.new_page()
     page.goto("about:blank")
@@ -70,7 +70,7 @@ def test_page_and_python_simulations_agree(rotor, name):
         assert page["t"] == pytest.approx(ours.t, abs=1e-12)
         assert page["angle"] == pytest.approx(ours.angle, abs=1e-6)
         assert page["lost"] == ours.lost
-        assert np.ptp(page["angle"]) > 0.03  # the rotor did turn
+        assert np.ptp(page["angle"]) > 0.03  # the rotor has turned
         seen.add(ours.lost != 0)
     assert seen == {False, True}
     for what, value in (
@@ -137,7 +137,7 @@ def test_tables_match_those_of_the_document(opened, motor):
     assert np.sum(marks) == (4 if motor.motor == "unipolar" else 8)
 
 
-def test_rotor_can_be_dragged_and_pulses_continue(opened):
+def test_rotor_responds_to_dragging_and_to_pulses(opened):
     shown = opened(motor_explorer())
     state = shown.rk.locator(".rk-state")
     resting = shown.look()
@@ -185,7 +185,7 @@ def test_rotor_can_be_dragged_and_pulses_continue(opened):
     shown.type("load torque", 30)  # mN m, more than the holding torque of 20 mN m
     shown.look()
     assert state.inner_text() == "This row does not hold the load."
-    assert "The load runs back" in shown.look().says
+    assert "The load slips back" in shown.look().says
 
 
 def test_page_works_offline_and_axe_finds_no_problems(browser, opened):

@@ -21,8 +21,8 @@ TASKS = int(os.environ.get("ROBOKIN_TASKS", 40))
 
 
 def least_on_the_way(path, times, H, v, samples=2001):
-    """The least distance from the point H + v t to any lever, for every part of the
-    path: (parts,).
+    """For every part of the path, the least distance from the point H + v t to any lever: an array
+    of shape (parts,).
     """
     s, found = np.linspace(0, 1, samples), []
     for a, b, begin, end in zip(path, path[1:], times, times[1:], strict=False):
@@ -39,8 +39,8 @@ def least_on_the_way(path, times, H, v, samples=2001):
 
 
 def test_clearance_from_a_moving_obstacle_is_a_tight_bound():
-    """Obstacles move fast and slowly, near and far, through the levers and past them; some arms
-    rest.
+    """Obstacles move fast and slowly, near and far, through the levers and past them; some arms do
+    not move.
     """
     rng, swept = np.random.default_rng(7), 0
     for turn in (0.0, 0.5, 3.0):
@@ -64,7 +64,7 @@ def test_clearance_from_a_moving_obstacle_is_a_tight_bound():
 
 def moving_tasks(n, seed=21, speed=1.0):
     """Yield tasks (q0, target, H, v): those of test_obstacles.py, but the obstacle comes from any
-    direction and reaches its place halfway through the direct motion.
+    direction and reaches its position halfway through the direct motion.
     """
     rng = np.random.default_rng(seed)
     for q0, K1, H in tasks(n, seed):
@@ -98,7 +98,9 @@ def test_plans_keep_their_clearance_from_a_moving_obstacle(answers):
 
 
 def test_obstacle_motion_changes_the_plan(answers):
-    """Many of the plans would fail if the obstacle stayed at its first or last position."""
+    """Many of the plans would come too near to an obstacle that stays at its first or last
+    position.
+    """
     still = [
         min(clearance(ARM, answer.path, np.add(H, t * v)).min() for t in (times[0], times[-1]))
         for (_, _, H, v), (answer, times) in answers
@@ -187,16 +189,16 @@ def test_two_distances_locate_an_obstacle_up_to_reflection():
 
 
 @pytest.mark.parametrize("away", [(1.0, 0.9), (4.0, 1.9), (0.5, 2.6)])
-def test_circles_that_do_not_meet_locate_no_point(away):
+def test_distances_whose_circles_do_not_meet_locate_no_point(away):
     assert np.isnan(locate((0, 0), (2, 0), *away)).all()
 
 
-def test_touching_circles_locate_one_point():
+def test_distances_whose_circles_touch_locate_one_point():
     np.testing.assert_allclose(locate((0, 0), (2, 0), 1.5, 0.5), [(1.5, 0)] * 2, atol=1e-7)
     np.testing.assert_allclose(locate((1, 1), (1, 2), 3.0, 2.0), [(1, 4)] * 2, atol=1e-7)
 
 
-# ---- wrong calls
+# ---- invalid calls
 
 GOAL, FAR, V = (1.8, 0.6), (1.2, 1.9), (0.1, 0.2)
 WRONG = {
@@ -221,7 +223,7 @@ WRONG = {
 
 
 @pytest.mark.parametrize("name", WRONG)
-def test_errors_name_the_wrong_argument(name):
+def test_errors_name_the_invalid_argument(name):
     call, words = WRONG[name]
     with pytest.raises(ValueError, match=words):
         call()

@@ -1,4 +1,4 @@
-"""Exported pages and the site on narrow screens, on paper and to the ear."""
+"""Exported pages and the site on narrow screens, on paper and in a screen reader."""
 
 import io
 import json
@@ -25,7 +25,7 @@ PARTS = "details.rk-code"
 
 @pytest.fixture(scope="module")
 def small(tmp_path_factory):
-    """A site of three labs, built as the large one is."""
+    """A site of three labs, built in the same way as the full site."""
     source = tmp_path_factory.mktemp("site") / "source"
     source.mkdir()
     for name in ("conf.py", "static", "templates"):
@@ -62,7 +62,7 @@ def opened(browser):
 
 # --- Screens --------------------------------------------------------------------------------------
 
-# The lines of paragraphs and lists outside views, tables and outputs. A formula counts as nothing.
+# The lines of paragraphs and lists outside views, tables and outputs, without formulas.
 LINES = """() => {
   const found = [], range = document.createRange();
   for (const node of document.querySelectorAll(":is(main, article) :is(p, li, dd)")) {
@@ -97,7 +97,8 @@ def test_lines_have_at_most_75_characters(pages, opened, lab, kind):
         assert 60 < max(map(len, lines)) <= 75, max(lines, key=len)
 
 
-# The texts that can be seen only in part: they leave the window or a box that does not scroll.
+# The texts that are partly hidden: they extend beyond the window or beyond a box that does not
+# scroll.
 CUT = """() => {
   const range = document.createRange(), cut = [];
   const walk = document.createTreeWalker(document.querySelector("main, article"), 4);
@@ -118,7 +119,7 @@ CUT = """() => {
 
 
 @pytest.mark.parametrize("lab", LABS)
-def test_a_phone_shows_an_exported_lab_whole_and_does_not_scroll_it_sideways(exported, opened, lab):
+def test_exported_lab_fits_a_phone_without_scrolling_sideways(exported, opened, lab):
     page = opened(exported[lab].as_uri(), PHONE)
     for open_ in (False, True):
         page.evaluate(
@@ -144,7 +145,7 @@ def latex(text):
 
 @pytest.fixture(scope="module")
 def made(tmp_path_factory):
-    """The address of a page with a wide one of each: code, printed text, formula and table."""
+    """The address of a page with wide code, wide printed text, a wide formula and a wide table."""
     path = tmp_path_factory.mktemp("wide") / "wide.ipynb"
     sums = " + ".join(f"x_{{{k}}}" for k in range(100, 160))
     words = [f"wordwithoutend{k}" for k in range(20)]
@@ -161,11 +162,11 @@ BOXES = ("math[display=block]", "table", ".highlight pre", ".jp-OutputArea pre")
 
 @pytest.mark.parametrize("scheme", ["light", "dark"])
 @pytest.mark.parametrize("box", BOXES)
-def test_a_box_has_a_shadow_exactly_where_it_goes_on(made, opened, box, scheme):
+def test_box_has_a_shadow_exactly_where_its_content_is_cut_off(made, opened, box, scheme):
     page = opened(made, PHONE, color_scheme=scheme)
     page.evaluate("document.querySelectorAll('details').forEach(d => { d.open = true; })")
     found = page.locator(box).first
-    # only the shadows: no text, no lines
+    # show only the shadows, without text and lines
     page.add_style_tag(content=f"{box} * {{ visibility: hidden; border-color: transparent; }}")
     page.add_style_tag(
         content=f"{box} {{ color: color-mix(in srgb, currentColor, transparent 0%); }}"
@@ -182,17 +183,17 @@ def test_a_box_has_a_shadow_exactly_where_it_goes_on(made, opened, box, scheme):
         assert shaded == [left, right], f"scrolled by {at} px"
 
 
-def test_printed_text_keeps_its_lines_on_a_phone(made, opened):
+def test_printed_text_keeps_its_line_breaks_on_a_phone(made, opened):
     box = opened(made, PHONE).locator(".jp-OutputArea pre")
     high, line = box.evaluate("b => [b.clientHeight, parseFloat(getComputedStyle(b).lineHeight)]")
-    assert 2.5 * line < high < 4.5 * line, "three lines"
+    assert 2.5 * line < high < 4.5 * line, "wanted three lines"
     assert box.get_attribute("tabindex") == "0", "the keyboard cannot scroll it"
 
 
 # --- Folded code ----------------------------------------------------------------------------------
 
 
-# Whether the code of each cell, and the word "code", can be seen
+# Whether the code of each cell and the word "code" are visible
 SEEN = """all => all.map(d => [d.querySelector("pre"), d.firstElementChild]
     .map(e => e.checkVisibility()))"""
 
@@ -214,12 +215,14 @@ def test_code_is_folded_on_a_phone_and_open_elsewhere(pages, opened, kind):
     page.emulate_media(media="screen")
     page.evaluate(NEXT_FRAME)
     states = page.locator(PARTS).evaluate_all("all => all.map(d => d.open)")
-    assert states == [True] + [False] * (len(states) - 1), "printing changed what was open"
+    assert states == [True] + [False] * (len(states) - 1), "printing changed which cells are open"
     page = opened(address, PHONE, java_script_enabled=False)
-    assert page.locator(f"{PARTS} pre").first.is_visible(), "no code without scripts"
+    assert page.locator(f"{PARTS} pre").first.is_visible(), (
+        "without scripts, the code is not visible"
+    )
 
 
-def test_code_does_not_flash_before_it_is_folded(browser, exported):
+def test_code_is_never_visible_before_it_is_folded(browser, exported):
     context = browser.new_context(viewport={"width": PHONE, "height": 900})
     page = context.new_page()
     page.add_init_script(
@@ -245,7 +248,7 @@ def outputs(text, lenient=True):
     return str(cell["outputs"][0]["html"]), view.remarks
 
 
-def test_latex_outputs_are_formulas():
+def test_latex_outputs_become_formulas():
     for tex, block in ((r"$\displaystyle \frac{1}{2}$", True), ("$$x^2$$", True), ("$x$", False)):
         shown, remarks = outputs(tex)
         assert shown.startswith("<math") and ('display="block"' in shown) == block
@@ -255,7 +258,7 @@ def test_latex_outputs_are_formulas():
     assert words.count("<math") == 2 and "&lt;b&gt;so&lt;/b&gt; " in words and " &amp; " in words
 
 
-def test_bad_latex_is_shown_as_it_was_typed_with_a_remark():
+def test_invalid_latex_is_shown_as_it_was_typed_with_a_note():
     shown, remarks = outputs(r"$\nonsense$")
     assert shown == r"<code>$\nonsense$</code>"
     assert len(remarks) == 1 and "as it was typed" in remarks[0]
@@ -276,7 +279,7 @@ def test_bad_latex_is_shown_as_it_was_typed_with_a_remark():
         r"$\href{javascript:hacked}{x}$",
     ],
 )
-def test_hostile_latex_is_harmless(text):
+def test_malicious_latex_is_harmless(text):
     shown, _ = outputs(text)
     assert "<script" not in shown and "href" not in shown.replace("\\href", "")
     assert "\u202e" not in shown and len(shown) < 1_000_000
@@ -301,7 +304,7 @@ def test_formulas_and_code_fit_on_paper(pages, opened, kind):
         assert not page.get_by_text("Skip to content").is_visible()
 
 
-def test_a_view_or_a_figure_is_not_torn(pages, opened):
+def test_views_and_figures_are_not_split_across_pages(pages, opened):
     page = opened(pages("export", SOME[1]), PAPER)
     page.emulate_media(media="print")
     for kind in (".robokin-player", ".jp-OutputArea img", ".jp-OutputArea-child", "math"):
@@ -309,7 +312,7 @@ def test_a_view_or_a_figure_is_not_torn(pages, opened):
         assert said.startswith("avoid"), kind
 
 
-# --- The ear, and words ---------------------------------------------------------------------------
+# --- Screen readers and wording -------------------------------------------------------------------
 
 RULES = {"label-content-name-mismatch": {"enabled": True}}
 
@@ -320,7 +323,7 @@ def test_screen_reader_can_use_an_exported_lab(exported, opened, lab, scheme):
     page = opened(exported[lab].as_uri(), WIDE, color_scheme=scheme)
     awake(page)
     violations = Axe().run(page, options={"rules": RULES}).response["violations"]
-    if scheme == "light":  # what scrolls on a phone; views are tested elsewhere
+    if scheme == "light":  # also test what scrolls on a phone; views are tested elsewhere
         phone, more = opened(exported[lab].as_uri(), PHONE), {"exclude": [[".robokin-player"]]}
         violations += (
             Axe().run(phone, context=more, options={"rules": RULES}).response["violations"]
@@ -328,14 +331,14 @@ def test_screen_reader_can_use_an_exported_lab(exported, opened, lab, scheme):
     assert {rule["id"]: [n["html"][:160] for n in rule["nodes"]] for rule in violations} == {}
 
 
-def test_folded_cells_and_corners_of_tables_of_the_site_have_their_names(pages, opened):
+def test_folded_cells_and_table_corners_of_the_site_have_accessible_names(pages, opened):
     page = opened(pages("site", SOME[1]), WIDE)
     rules = [*RULES, "empty-table-header", "summary-name", "scrollable-region-focusable"]
     options = {"runOnly": {"type": "rule", "values": rules}}
     assert Axe().run(page, options=options).response["violations"] == []
 
 
-def test_no_page_of_ours_sends_its_reader_to_jupyter(pages, small, exported):
+def test_pages_do_not_tell_their_readers_to_use_jupyter(pages, small, exported):
     for kind in ("export", "site"):
         for lab in SOME:
             path = exported[lab] if kind == "export" else small / f"{lab}.html"
@@ -344,16 +347,16 @@ def test_no_page_of_ours_sends_its_reader_to_jupyter(pages, small, exported):
     index = (small / "searchindex.js").read_text(encoding="utf-8")
     found = json.loads(index[index.index("{") : index.rindex("}") + 1])
     assert len(found["terms"]) > 500
-    says = found["terms"].get("trust", [])  # lab 06 says of formulas that they can be trusted
+    says = found["terms"].get("trust", [])  # lab 06 says that some formulas are to be trusted
     for k in [says] if isinstance(says, int) else says:
         page = (small / f"{found['docnames'][k]}.html").read_text(encoding="utf-8")
         assert "to be trusted" in page and "trust the notebook" not in page
 
 
-def test_without_scripts_a_still_says_what_it_is(exported, opened):
+def test_without_scripts_a_still_picture_is_labelled_as_one(exported, opened):
     page = opened(exported[SOME[0]].as_uri(), WIDE, java_script_enabled=False)
     said = page.locator(".robokin-player > p:empty").first
     assert "still picture" in said.evaluate("p => getComputedStyle(p, '::after').content")
     page.emulate_media(media="print")
-    assert said.evaluate("p => getComputedStyle(p, '::after').content") == "none", "on paper"
-    assert not page.locator(".robokin-unguessed > summary").first.is_visible(), "on paper"
+    assert said.evaluate("p => getComputedStyle(p, '::after').content") == "none", "shown on paper"
+    assert not page.locator(".robokin-unguessed > summary").first.is_visible(), "shown on paper"

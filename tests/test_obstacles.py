@@ -38,7 +38,7 @@ TASKS = int(os.environ.get("ROBOKIN_TASKS", 60))
 ARM = three_lever(1.0)
 KEPT = ARM.lever / 7
 cases = pytest.mark.parametrize("case", CASES)
-# The least S (radians) for some of the random tasks, found by brute force: SciPy's Dijkstra on a
+# The least S (radians) for some of the random tasks, found by brute force: SciPy's Dijkstra, on a
 # grid of 2 degrees whose edges keep the distance L/7 (tests/benchmarks/obstacle_tasks.py,
 # `brute_force`).
 BRUTE = {
@@ -65,14 +65,14 @@ BRUTE = {
 
 
 def seen(q, H, L=1.0):
-    """The distances of H from the levers in postures q (..., 3), calculated with complex numbers:
-    (..., 3).
+    """The distances (..., 3) of H from the levers in postures q (..., 3), calculated with complex
+    numbers.
     """
     gamma, beta, alpha = np.moveaxis(np.asarray(q), -1, 0)
     lever = L * np.exp(1j * gamma)
     start, found = 0 * lever, []
     for turn in (beta, alpha, None):
-        # in these coordinates the lever lies from 0 to 1 on the real axis
+        # in these coordinates the lever extends from 0 to 1 on the real axis
         seen_from_lever = (complex(*H) - start) / lever
         foot = np.clip(seen_from_lever.real, 0, 1)
         found.append(L * abs(seen_from_lever - foot))
@@ -82,7 +82,7 @@ def seen(q, H, L=1.0):
 
 
 def dense(path, samples=4001):
-    """Postures on every part of a path: (parts, samples, 3)."""
+    """Postures (parts, samples, 3) on every part of a path."""
     path = np.asarray(path)
     return path[:-1, None] + np.linspace(0, 1, samples)[:, None] * np.diff(path, axis=0)[:, None]
 
@@ -153,7 +153,7 @@ def test_clearance_and_via_points_match_the_reference_cases(case):
         )
 
 
-def test_via_points_lie_at_right_angles_and_on_the_side_of_the_base():
+def test_via_points_are_at_right_angles_and_on_the_side_of_the_base():
     """Seen from the obstacle, a via point is at right angles to its end of the path. Errata S3-m:
     the printed formulas give (1.556, 1.131) and (1.429, 0.876) here; neither is at right angles,
     and one is on the wrong side.
@@ -199,7 +199,7 @@ def test_clearance_is_a_tight_bound(L):
     rng, arm = np.random.default_rng(6), three_lever(L)
     for _ in range(60):
         path, H = rng.uniform(0, np.pi, (4, 3)), L * rng.uniform(-3, 3, 2)
-        if rng.random() < 0.5:  # some joints stay still, as at a kink of S
+        if rng.random() < 0.5:  # some joints do not move, as at a kink of S
             path[1:] = np.where(rng.random((3, 3)) < 0.6, path[0], path[1:])
         sampled = seen(dense(path), H, L)
         bound = clearance(arm, path, H)
@@ -263,8 +263,8 @@ def test_clearance_is_zero_for_a_lever_that_passes_over_the_obstacle():
 
 @pytest.mark.filterwarnings("ignore:.*degrees:UserWarning")
 def test_clearance_is_correct_for_known_motions():
-    """Only joint 1 of the arm turns: lever OB moves past the obstacle or stops before it, and
-    everything beyond B is rigid.
+    """Only joint 1 of the arm turns: lever OB moves past the obstacle or stops before it, and the
+    rest of the arm is rigid.
     """
     q, H = np.array([0.2, 2.0, 2.5]), np.array([0.3, 0.9])
     to = np.arctan2(H[1], H[0])  # 71.6 degrees
@@ -282,8 +282,8 @@ def test_clearance_is_correct_for_known_motions():
 
 @pytest.mark.parametrize("H", [(0, 0), (1e-9, 0), (0.01, -0.02), (1e3, 2e3)])
 def test_clearance_is_found_where_the_distance_hardly_changes(H):
-    """The levers rotate about an obstacle at or near the base, or very far from it: the distances
-    hardly differ, and the bisection must not go on forever.
+    """The levers rotate about the base, and the obstacle is at or near the base or very far from
+    it. The distances hardly differ, but the bisection must end.
     """
     a, b = np.array([0.1, 1.1, 1.9]), np.array([3.0, 1.1, 1.9])
     least = clearance(ARM, [a, b], H)[0]
@@ -293,9 +293,9 @@ def test_clearance_is_found_where_the_distance_hardly_changes(H):
     assert not keeps(ARM, a, b, H, held) and (held < 0.1 or keeps(ARM, a, b, H, held - 2e-4))
 
 
-def test_exact_distance_of_a_resting_arm_counts_as_kept():
-    """At the border, a distance that is kept exactly counts as kept; the next larger number does
-    not.
+def test_distance_equal_to_the_clearance_of_a_resting_arm_counts_as_kept():
+    """A required distance that equals the clearance counts as kept; the next larger floating-point
+    number does not.
     """
     q, H = np.array([1.0, 2.0, 1.5]), (1.3, 1.2)
     least = seen(q, H).min()
@@ -330,8 +330,8 @@ def test_distances_accept_batches_of_postures_and_obstacles():
             assert one == (clearance(ARM, [a[i, 0], b[k]], H).min() >= 0.2)
 
 
-def test_long_paths_are_measured_in_blocks(monkeypatch):
-    """The result is the same whether pieces are processed together or a few at a time."""
+def test_clearance_does_not_depend_on_the_size_of_the_blocks(monkeypatch):
+    """The result is the same whether all pieces are processed together or a few at a time."""
     rng = np.random.default_rng(13)
     path, H = rng.uniform(0, np.pi, (60, 3)), (0.9, 1.1)
     together, kept = clearance(ARM, path, H), keeps(ARM, path[:-1], path[1:], H, 0.1)
@@ -343,7 +343,7 @@ def test_long_paths_are_measured_in_blocks(monkeypatch):
 @pytest.mark.filterwarnings("ignore:.*degrees:UserWarning")
 def test_excessive_work_is_refused(monkeypatch):
     q = np.array([1.0, 2.0, 1.5])
-    # a hundred turns are a lot of work, but not too much
+    # a hundred turns are a lot of work, but less than the limit
     assert clearance(ARM, [q, q + [200 * np.pi, 0, 0]], (1.2, 1.3)).shape == (1, 3)
     many = np.tile(q, (WORK + 1, 1))
     with pytest.raises(
@@ -365,8 +365,8 @@ def test_excessive_work_is_refused(monkeypatch):
             call()
 
 
-def test_nearest_of_several_obstacles_counts():
-    """The result equals the combined results for the individual obstacles."""
+def test_only_the_nearest_of_several_obstacles_matters():
+    """The result equals the least of the results for the individual obstacles."""
     rng = np.random.default_rng(15)
     for _ in range(40):
         path, H = rng.uniform(0, np.pi, (4, 3)), rng.uniform(-2.5, 2.5, (3, 2))
@@ -408,7 +408,7 @@ def test_plans_past_two_obstacles_keep_clear_of_both(two_drawn):
     assert {"via points", "search", "none"} <= set(ways) and differs > 3
 
 
-def test_via_points_lie_around_the_first_obstacle_in_the_way(two_drawn):
+def test_via_points_are_around_the_first_obstacle_in_the_way(two_drawn):
     """The obstacle is identified from the gripper's positions and compared with the text."""
     count = 0
     for q0, K1, H in two_drawn:
@@ -517,9 +517,9 @@ def test_plan_text_names_the_nearest_lever(answers):
                 assert abs(float(near) / 1000 - least.min()) <= fast + 5.1e-5 and float(near) > 0
 
 
-def test_search_path_is_taut(answers):
-    """No obvious change makes a path shorter: omitting a via posture, pulling a via posture towards
-    its neighbours, or ending at a nearer posture.
+def test_search_path_cannot_be_shortened_by_simple_changes(answers):
+    """No simple change shortens a path, such as omitting a via posture, moving a via posture
+    towards its neighbours, or ending at a nearer posture.
     """
     searched = [(H, K1, p.path) for _, K1, H, p in answers if p.way == "search"]
     nearer = [is_taut(path, K1, H, KEPT) for H, K1, path in searched]
@@ -527,8 +527,8 @@ def test_search_path_is_taut(answers):
 
 
 def is_taut(path, K1, H, distance):
-    """Assert that the path is taut at its via postures; return whether a nearer end posture is
-    within reach.
+    """Assert that no change of its via postures shortens the path; return whether the path could
+    end at a nearer posture.
     """
     assert not keeps(ARM, path[:-2], path[2:], H, distance).any()
     for a, via, b in zip(path, path[1:], path[2:], strict=False):
@@ -548,7 +548,7 @@ def test_search_path_costs_no_more_than_brute_force(drawn):
         S = abs(np.diff(way_round(ARM, q0, K1, H, KEPT), axis=0)).sum()
         assert S < 1.03 * least, (i, S, least)
         ratios.append(S / least)
-    assert np.mean(ratios) < 0.985  # the via postures are optimal and not bound to a grid
+    assert np.mean(ratios) < 0.985  # the via postures are optimal and not restricted to a grid
 
 
 def test_search_finds_paths_with_a_small_clearance(drawn):
@@ -580,8 +580,8 @@ def test_search_reaches_targets_that_few_postures_reach():
 
 
 def test_start_at_the_joint_limits_is_accepted():
-    """A start past a limit by a rounding error is accepted too: the path begins at the arm's
-    posture.
+    """A start that exceeds a limit by a rounding error is accepted, too: the path begins at the
+    arm's posture.
     """
     for q0 in ([-5e-10, 2.0, 1.5], [np.pi + 5e-10, 2.0, 1.5], [0.0, np.pi, 2.0], [1.0, 0.3, np.pi]):
         path = way_round(ARM, q0, (1.8, 0.6), (1.0, -1.5), 0.1)
@@ -591,7 +591,7 @@ def test_start_at_the_joint_limits_is_accepted():
 
 
 def test_search_finds_a_path_where_one_was_constructed():
-    """Tasks with a known solution: the obstacle is next to a path with two random corners."""
+    """The tasks have a known solution: the obstacle is next to a path with two random corners."""
     rng, solved, count = np.random.default_rng(8), 0, 0
     while count < 25:
         path = rng.uniform(0, np.pi, (4, 3))
@@ -613,7 +613,7 @@ def test_search_finds_a_path_where_one_was_constructed():
     assert solved == count
 
 
-def test_next_task_can_start_from_the_posture_of_a_plan():
+def test_next_task_can_start_from_the_last_posture_of_a_plan():
     posture = np.array([100, 110, 120]) * deg
     for target, obstacle in (
         ((1.8, 0.6), (1.2, 2.1)),
@@ -642,7 +642,7 @@ def test_direct_plan_has_no_via_postures():
     assert "no obstacle is given" in free.words and "not on it" in beside.words
 
 
-def test_via_points_of_the_document_keep_only_smaller_distances():
+def test_via_points_of_the_document_leave_less_clearance():
     """The chords of the circle of radius L/7 come nearer than L/7 (errata S3-n), so the document's
     path works only for a smaller distance.
     """
@@ -712,9 +712,9 @@ def test_impossible_plans_give_a_reason(target, obstacle, words):
     assert answer.path.tolist() == [Q0.tolist()] and (answer.posture == Q0).all()
 
 
-def test_barely_kept_distance_is_accepted():
-    """A distance exactly at its limit is allowed: at the base, the start and the target and on the
-    direct path.
+def test_distance_that_is_just_kept_is_accepted():
+    """A clearance that equals the required distance is enough at the base, the start and the target
+    and on the direct path.
     """
     target, H = (1.75, 0.5), (1.75, 0.75)
     at_start, direct = distances(ARM, Q0, H).min(), [Q0, ARM.least(target, Q0)[0]]
@@ -763,7 +763,7 @@ def test_fractions_outside_0_to_1_give_the_ends_of_a_path():
     assert (along(path, [[-1.0, 2.0], [1e300, -1e300]]) == path[[[0, 2], [2, 0]]]).all()
 
 
-# ---- wrong calls
+# ---- invalid calls
 
 ARMS = {
     "in_quadrilateral": lambda arm: in_quadrilateral(arm, Q0, Q0, (1, 2)),
@@ -778,14 +778,14 @@ ARMS = {
 
 
 @pytest.mark.parametrize("name", ARMS)
-def test_other_arms_are_refused(name):
+def test_arms_of_other_kinds_are_refused(name):
     ARMS[name](ARM)
     for arm in (None, "a", 3, SCARA, loader_arm(1, 1), ARM.geometry, type(ARM)):
         with pytest.raises(TypeError, match="arm: wanted a ThreeLeverArm, got"):
             ARMS[name](arm)
 
 
-FAR = (1.2, 1.9)  # an obstacle that is not in the way
+FAR = (1.2, 1.9)  # this obstacle is not in the way
 GOAL = (1.8, 0.6)
 WRONG = {
     "a posture past its limit": (lambda: plan(ARM, [1, 2, 4], GOAL), "from 0 to 180 degrees"),
@@ -854,7 +854,7 @@ WRONG = {
 
 
 @pytest.mark.parametrize("name", WRONG)
-def test_errors_name_the_wrong_argument(name):
+def test_errors_name_the_invalid_argument(name):
     call, words = WRONG[name]
     with pytest.raises(ValueError, match=words) as caught:
         call()
@@ -937,8 +937,8 @@ def test_plans_are_read_only_data():
         {"least": -1},
         {"least": [1, 2]},
         {"least": np.inf},
-        {"radius": 0.2},  # a search has no radius
-        {"way": "via points"},  # but no radius
+        {"radius": 0.2},  # a plan by search has no radius
+        {"way": "via points"},  # but the plan has no radius
         {"way": "via points", "radius": -0.2},
         {"way": "via points", "radius": np.inf},
         {"way": "via points", "radius": [0.1, 0.2]},

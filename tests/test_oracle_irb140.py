@@ -56,7 +56,7 @@ def test_within_matches_the_oracle(case):
         row = rows[np.nanargmin(turns(rows, q).max(-1))]
         assert within(IRB140, row).tolist() == [bool(values) for values in inside]
         for joint, values in enumerate(inside):
-            for value in values:  # near a representative, `nearest` must return it
+            for value in values:  # near a representative, `nearest` must return this representative
                 near = np.array([v[0] if v else qi for v, qi in zip(inside, q, strict=True)])
                 near[joint] = value
                 assert abs(nearest(IRB140, q[None], near)[joint] - value) < 1e-9
@@ -78,7 +78,7 @@ def test_named_poses_agree_to_the_last_digits(name):
 
 
 def motion(law):
-    """The poses of one of the document's motions at the times T, calculated with robokin."""
+    """The poses of one of the document's motions at the times T, computed with robokin."""
     s = linear(TOTAL)(T)
     start, via, goal = POSES["chain_s"], POSES["chain_i"], POSES["chain_e"]
     if law == "LIN s->e":
@@ -130,7 +130,7 @@ def test_ptp_matches_the_oracle():
     assert np.allclose(differentiate(q, T), case["speed"], rtol=0, atol=1e-11)
 
 
-def test_printed_blend_of_055_is_refused():
+def test_printed_blend_of_0_55_is_refused():
     assert "LIN-LIN blend 0.55" in MOTIONS
     with pytest.raises(ValueError, match=r"\[0, 0.5\], got 0.55"):
         motion("LIN-LIN blend 0.55")

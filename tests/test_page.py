@@ -1,5 +1,5 @@
-"""The page: its colours are defined once, its script is joined from modules, its packed values can
-be decoded.
+"""The page: its colours are defined once, its script is joined from modules, and its packed numbers
+can be decoded.
 """
 
 import base64
@@ -55,7 +55,9 @@ def test_scripts_use_exactly_the_colours_of_the_palette():
 
 
 def test_text_has_enough_contrast_in_both_themes():
-    """The contrast with the paper is at least 4.5 for text and 3 for lines (WCAG AA; W3C, 2008)."""
+    """The contrast with the background is at least 4.5 for text and 3 for lines (WCAG AA; W3C,
+    2008).
+    """
 
     def light(color):
         parts = np.array([int(color[i : i + 2], 16) for i in (1, 3, 5)]) / 255
@@ -155,7 +157,7 @@ def test_a_compressed_script_adds_its_style_sheets_and_returns_its_module(module
     head = f"{document}\nconst found = (() => {{{code}}})();"
     assert run(head, "[found.one, sheets]") == '[1,["b{margin:0}"]]'
     modules({"base": "b { margin: 1px }"}, base="export const one = 1;\n")
-    assert joiner.compressed("base")[0] != key, "a different text has a different key"
+    assert joiner.compressed("base")[0] != key, "wanted a different key for a different text"
 
 
 def test_views_of_one_kind_share_a_script(browser):
@@ -175,7 +177,7 @@ def test_views_of_one_kind_share_a_script(browser):
 
 
 def test_views_start_one_at_a_time_with_a_frame_in_between(browser):
-    """Also after a view whose start failed."""
+    """This also holds after a view that failed to start."""
     pages = [markup.output("prediction.ask", k * 12, "0", "<p>words</p>") for k in "abc"]
     starts = "{starts.push(frames); if (starts.length == 2) throw new Error('on purpose')}"
     pages = [re.sub(r"\$prediction\.ask\(.*\);", starts, one) for one in pages]
@@ -196,7 +198,7 @@ def test_views_start_one_at_a_time_with_a_frame_in_between(browser):
         ("prediction.ask", "<p>Which joint is the fastest?</p><p>a) joint 1</p><p>Run this.</p>"),
     ],
 )
-def test_old_browser_shows_the_still_and_a_reason(browser, call, still):
+def test_old_browser_shows_the_still_picture_and_a_reason(browser, call, still):
     tab = browser.new_page()
     tab.set_content(
         "<script>delete globalThis.DecompressionStream</script>"
@@ -261,7 +263,8 @@ def test_joined_style_sheets_match_the_files_in_a_browser(browser):
         sheet.textContent = text;
         return [...sheet.sheet.cssRules].map(rule => rule.cssText.replace(/,\\s+/g, ","));
     }"""
-    for name in ("motor_explorer", "tour_explorer", "plan_explorer", "prediction"):
+    views = "motor_explorer", "elbow_explorer", "tour_explorer", "plan_explorer", "prediction"
+    for name in views:
         text = joiner.style(name)
         order = [path.stem for path in SHEETS if f"const ${path.stem} " in joiner.script(name)]
         order.sort(key=lambda stem: joiner.script(name).index(f"const ${stem} "))
@@ -284,7 +287,7 @@ def test_player_contains_only_used_modules_and_no_comments():
     for path in SCRIPTS:
         for words in re.findall(r"^ *(?://|/?\*\*?) (\w.{15,}[^*/])", path.read_text(), re.M):
             assert words not in script
-    assert sorted(map(len, script.splitlines()))[-10] < 400, "lines too long to read"
+    assert sorted(map(len, script.splitlines()))[-10] < 400, "the lines are too long to read"
 
 
 # --- Packed numbers -------------------------------------------------------------------------------

@@ -23,7 +23,7 @@ from robokin import (
 
 CORNERS = ["parabola", "quintic"]
 corners = pytest.mark.parametrize("corner", CORNERS)
-# distance from via to the curve, as a fraction of the distance to the corner's chord
+# the distance from via to the curve, as a fraction of the distance from via to the corner's chord
 NEARNESS = {"parabola": 1 / 2, "quintic": 3 / 8}
 
 
@@ -106,9 +106,9 @@ def test_blend_of_zero_equals_lin_lin(corner):
 
 @corners
 @pytest.mark.parametrize("b", [0.05, 0.1, 0.5])
-def test_distance_of_the_path_from_via_matches_the_errata(corner, b):
-    """Errata S1-l: the middle of the parabola is |a - 2 b + c| / 4 from via, half of the distance
-    to the chord; the middle of the quintic is at 3/4 of that distance.
+def test_distance_of_the_path_from_the_via_point_matches_the_errata(corner, b):
+    """Errata S1-l: the middle of the parabola is |a - 2 b + c| / 4 from via, which is half of the
+    distance to the chord; the middle of the quintic is at 3/4 of the parabola's distance.
     """
     first, last = lin(START, VIA, 1 - 2 * b).translation, lin(VIA, GOAL, 2 * b).translation
     chord = np.linalg.norm((first + last) / 2 - VIA.translation)
@@ -119,7 +119,7 @@ def test_distance_of_the_path_from_via_matches_the_errata(corner, b):
 
 
 def bernstein(points, x):
-    """A Bezier curve from its polynomials, not from de Casteljau's algorithm."""
+    """A Bezier curve computed from Bernstein polynomials, not with de Casteljau's algorithm."""
     from math import comb
 
     n = len(points) - 1
@@ -179,8 +179,8 @@ def jump(f, at, h, order):
 @pytest.mark.parametrize("corner, order", [("parabola", 1), ("quintic", 1), ("quintic", 2)])
 @pytest.mark.parametrize("what", ["joints", "pose"])
 def test_derivative_is_continuous_at_the_ends_of_the_corner(what, corner, order, b):
-    """C1 and C2 continuity is measured, rotations included: the difference in q' (q'') across each
-    end of the corner vanishes in proportion to the step.
+    """The test measures C1 and C2 continuity, also of rotations: the difference in q' (q'') across
+    each end of the corner is proportional to the step.
     """
     row = IRB140.branch(1, 1, -1)
 
@@ -279,9 +279,9 @@ def test_start_can_equal_goal(corner):
 
 
 @corners
-def test_a_straight_corner_stays_straight(corner):
-    """With via halfway between start and goal there is no corner, and the motion does
-    not change.
+def test_via_point_on_the_line_does_not_change_the_motion(corner):
+    """If via is halfway between start and goal, there is no corner, and a blend does not change the
+    motion.
     """
     s = np.linspace(0, 1, 101)
     T = blend(START, lin(START, GOAL, 0.5), GOAL, 0.3, s, corner)

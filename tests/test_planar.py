@@ -63,7 +63,7 @@ def test_least_movement_matches_the_oracle(case):
     kept, _ = arm.least(case["K"], ours(case["previous"]))
     if case["gamma_in_range"]:
         np.testing.assert_allclose(kept, q, rtol=0, atol=1e-12)
-    else:  # the limit on gamma increases S or excludes all postures
+    else:  # the limits of gamma increase S or exclude all postures
         assert np.isnan(kept).all() or (within(arm, kept).all() and abs(kept - q).max() > 1e-6)
 
 
@@ -82,7 +82,7 @@ def test_forward_kinematics_matches_the_oracle(case):
 
 
 @pytest.mark.parametrize("case", UNREACHED)
-def test_target_out_of_range_has_no_postures_and_gets_a_reason(case):
+def test_target_out_of_reach_has_no_postures_and_gets_a_reason(case):
     arm = three_lever(case["L"])
     assert np.isnan(arm.family(case["K"], [1.0, 2.0, np.pi])).all()
     assert (
@@ -99,8 +99,8 @@ def test_target_out_of_range_has_no_postures_and_gets_a_reason(case):
 
 
 def test_worked_example_agrees_with_the_errata():
-    """Errata S3-h: the sweep ends near the kink at beta = 110 degrees; the minimum is exactly at
-    the kink.
+    """Errata S3-h: the result of the sweep is near the kink at beta = 110 degrees; the exact
+    minimum is at the kink.
     """
     previous = ours(EXAMPLE["previous_deg"]) * deg
     q, S = ARM.least(EXAMPLE["target"], previous)
@@ -131,12 +131,13 @@ def test_family_reaches_its_point_over_its_whole_range(shape):
     np.testing.assert_allclose(q[..., 0, 1], np.pi, atol=1e-7)  # beta at alpha_min
     assert (np.diff(q[..., 0], axis=-1) > 0).all()  # gamma only increases
     assert np.isnan(arm.family(K, low - 1e-6)).all() and np.isnan(arm.family(K, high + 1e-6)).all()
-    for i in np.ndindex(*shape):  # three coordinates or a Transform give the same result
+    # a point with three coordinates and a Transform give the same result
+    for i in np.ndindex(*shape):
         point = np.append(K[i], 0.0)
         for same in (point, Transform(translation=point)):
             np.testing.assert_array_equal(arm.family(same, alpha[i]), q[i])
-    # the range with limited gamma, if it is not empty, is exactly where all angles are between 0
-    # and 180 degrees
+    # if the range with limited gamma is not empty, it contains exactly the alphas for which all
+    # angles are between 0 and 180 degrees
     low, high = arm.alpha_range(K)
     with np.errstate(invalid="ignore"):
         inside = (alpha > low[..., None] + 1e-9) & (alpha < high[..., None] - 1e-9)
@@ -160,7 +161,7 @@ def test_target_near_the_stretched_arm_is_reached_accurately(L):
 
 
 @pytest.mark.parametrize("limited", [True, False])
-def test_exact_minimum_is_never_above_the_sweep(limited):
+def test_exact_minimum_is_never_above_the_result_of_a_sweep(limited):
     rng = np.random.default_rng(2)
     n = 5 * TASKS // 2  # 5000 tasks for each parameter by default
     K, previous = random_points(rng, n), rng.uniform(0, np.pi, (n, 3))
@@ -180,8 +181,8 @@ def test_exact_minimum_is_never_above_the_sweep(limited):
         ~exists
     ).sum() + n / 1000
     assert np.nanmin(above) > -1e-14
-    # in one step of alpha each angle changes by at most three times the step, so the two results
-    # must be close
+    # in one step of alpha, each angle changes by at most three times the step, so the two results
+    # are close to each other
     assert 0 < np.nanmax(above) < 0.05 * deg and np.nanmedian(above) < 0.005 * deg
 
 
@@ -233,8 +234,8 @@ def test_a_redundant_arm_has_no_ik():
 
 
 def test_follow_accepts_the_family_as_rows():
-    """`follow` takes, at each sample of a path, the posture with the least movement among those
-    offered.
+    """At each sample of a path, `follow` chooses the posture with the least movement among the
+    given ones.
     """
     K = np.linspace((1.8, 0.6), (1.2, 1.4), 40)
     rows = ARM.family(K[:, None], np.linspace(80, 180, 201) * deg)
@@ -258,7 +259,7 @@ def test_follow_accepts_the_family_as_rows():
         (lambda: ARM.least((1.5, np.nan), np.ones(3)), "nan"),
     ],
 )
-def test_errors_name_the_wrong_argument(call, words):
+def test_errors_name_the_invalid_argument(call, words):
     with pytest.raises(ValueError, match=words):
         call()
 
@@ -271,7 +272,7 @@ def test_points_off_the_plane_are_out_of_reach():
 
 @pytest.mark.parametrize("way", [(0.0, 0, 1), (1.0, 0, 0)], ids=["height", "distance"])
 def test_out_of_reach_reason_agrees_with_the_postures(way):
-    """The last reachable point upwards or outwards is found by bisection."""
+    """The test finds the last reachable point upwards or outwards by bisection."""
 
     def at(far):
         return np.array([1.5, 0, 0]) + far * np.array(way)
@@ -288,7 +289,7 @@ def _pairs(points):
     return np.stack([points.real, points.imag], axis=-1)
 
 
-def test_out_of_reach_and_the_family_agree_at_the_borders():
+def test_out_of_reach_and_the_family_agree_at_the_workspace_boundary():
     L = ARM.lever
     for KO in (L, L * (1 + 1e-13), L * (1 + 1e-9), 3 * L, 3 * L * (1 + 5e-13), 3 * L * (1 + 1e-9)):
         for angle in (0.3, 1.2, 2.0):
@@ -299,8 +300,8 @@ def test_out_of_reach_and_the_family_agree_at_the_borders():
 
 
 def test_plane_tolerance_is_the_rounding_error_of_the_arm():
-    """A point off the plane by less than 1e-12 of the reach counts as lying on it, for an arm of
-    any size.
+    """A point that is off the plane by less than 1e-12 times the reach counts as on it, for an arm
+    of any size.
     """
     for size in (1e-3, 1.0, 1e3):
         two, three = two_link(size, size), three_lever(size)
@@ -311,7 +312,7 @@ def test_plane_tolerance_is_the_rounding_error_of_the_arm():
 
 
 def test_sweep_keeps_gamma_within_its_limits_by_default():
-    """Without limits some points have a nearer posture with gamma outside 0 to 180 degrees."""
+    """Without the limits, some points have a nearer posture with gamma outside 0 to 180 degrees."""
     previous = np.array([0.0, 90, 120]) * deg
     better = 0
     for K in np.random.default_rng(5).uniform(-2.5, 2.5, (200, 2)) * ARM.lever:
@@ -336,7 +337,7 @@ def test_angles_in_degrees_cause_a_warning():
         ARM.least((1.5 * ARM.lever, ARM.lever), [100, 110, 120])
 
 
-def test_no_posture_of_the_family_needs_less_movement_than_least():
+def test_no_posture_of_the_family_needs_less_movement_than_the_exact_minimum():
     """Brute force: 400 targets and postures, each compared with 20 001 postures of its family."""
     rng = np.random.default_rng(17)
     L = ARM.lever
@@ -419,7 +420,7 @@ def test_unequal_levers_reach_their_targets(lengths):
 
 
 @unequal
-def test_families_of_unequal_levers_end_where_the_triangle_ends(lengths):
+def test_range_of_alpha_for_unequal_levers_follows_from_the_triangle(lengths):
     """The highest alpha is 180 degrees; at the lowest, OA is as long as OB and BA together; if K is
     too near for that, the lowest alpha is 0.
     """
@@ -457,7 +458,8 @@ def test_every_posture_of_unequal_levers_is_in_the_family(lengths):
     turns = abs((found - q[far] + np.pi) % (2 * np.pi) - np.pi)
     assert far.sum() > 1000 and turns.max() < 1e-5 and np.median(turns) < 1e-14
     assert np.isnan(arm.family(K[~far], q[~far, 2])).all()
-    # with B on the other side of OK, K is always nearer than the border, but can be close to it
+    # if B is on the other side of OK, K is always nearer than |OB - BA| + AK, but can be close to
+    # it
     q[:, 1] *= 0.05
     q[:, 2] *= 0.05
     q[::2, 2] = np.pi - q[::2, 2]
@@ -467,7 +469,7 @@ def test_every_posture_of_unequal_levers_is_in_the_family(lengths):
 
 
 @unequal
-def test_no_posture_of_unequal_levers_needs_less_movement_than_least(lengths):
+def test_no_posture_of_unequal_levers_needs_less_movement_than_the_exact_minimum(lengths):
     """Brute force: 100 targets and postures, each compared with 8001 postures of its family."""
     arm, rng = three_lever(lengths), np.random.default_rng(36)
     K, before = ring(rng, lengths, 100), rng.uniform(0, np.pi, (100, 3))
@@ -483,14 +485,14 @@ def test_no_posture_of_unequal_levers_needs_less_movement_than_least(lengths):
         np.testing.assert_allclose(abs(q - before).sum(axis=-1), S, rtol=0, atol=1e-13)
 
 
-def test_minimum_that_only_unequal_levers_have_is_found():
+def test_minimum_that_occurs_only_with_unequal_levers_is_found():
     """gamma - beta + alpha has its minimum inside this family, where all three angles change."""
     arm, K = three_lever((1.313, 0.534, 0.247)), np.array([1.057, 0.0])
     low, high = arm.alpha_range(K, limited=False)
     rows = arm.family(K, np.linspace(low, high, 20_001))
     level = (rows @ [1, -1, 1]).argmin()
     assert 100 < level < 19_900
-    before = rows[level] + [-0.2, 0.2, -0.2]  # near this row, S is then that sum minus a constant
+    before = rows[level] + [-0.2, 0.2, -0.2]  # so that S is that sum plus a constant near this row
     q, S = arm.least(K, before, limited=False)
     sums = abs(rows - before).sum(axis=-1)
     assert abs(q - before).min() > 1e-3 and sums.min() - 1e-7 < S <= sums.min()
@@ -506,7 +508,7 @@ def test_batch_of_tasks_for_unequal_levers_matches_single_tasks():
     assert arm.least(K.reshape(10, 230, 2), before[0])[0].shape == (10, 230, 3)
 
 
-def test_reason_is_given_where_unequal_levers_cannot_reach():
+def test_reason_is_given_for_points_that_unequal_levers_cannot_reach():
     arm = three_lever((0.9, 1.1, 0.6))
     assert "not farther than |OB \N{MINUS SIGN} BA| + AK (800.0 mm)" in arm.out_of_reach((0.8, 0))
     assert "farther than three levers (2600.0 mm)" in arm.out_of_reach((0, 2.61))

@@ -198,8 +198,8 @@ def test_greatest_speeds_and_accelerations_match_the_errata(blended):
 
 
 def test_printed_value_plot_and_player_agree(blended, motions):
-    """Regression (row A8): at blend 0.5 the player said 3.24 °/s², and the cell next to it printed
-    3.23.
+    """Regression (row A8): at blend 0.5 the player showed 3.24 °/s², and the cell next to it
+    printed 3.23.
     """
     k, slow = 3, np.linspace(0, 20, 1001)
     q = motions[k, ::2]
@@ -216,8 +216,8 @@ def test_printed_value_plot_and_player_agree(blended, motions):
         assert "Greatest acceleration 3.23 °/s² (q3)." in plot.alt
 
 
-def test_plot_and_player_report_the_same_flaws(motions):
-    """The motion has a corner, a jump by 360°, samples past both kinds of limit, and a gap."""
+def test_plot_and_player_report_the_same_problems(motions):
+    """The motion has a corner, a jump by 360°, samples beyond both kinds of limits, and a gap."""
     q = motions[0].copy()
     q[1500:, 3] += 2 * np.pi
     q[:, 1] += 130 * deg
@@ -226,8 +226,8 @@ def test_plot_and_player_report_the_same_flaws(motions):
     recording = record(IRB140, t, q)
     plot, player = plot_joints(recording), animate(recording)
     [notes] = [" ".join(x) for x in player.data["arms"][0]["notes"].values()]
-    for word in ("speed limit", "limit"):
-        told = re.findall(rf"q(\d) is past its {word} in (\d+) of 2001", notes)
+    for word, verb in (("speed limit", "exceeds"), ("limit", "is past")):
+        told = re.findall(rf"q(\d) {verb} its {word} in (\d+) of 2001", notes)
         said = re.search(rf"Joint \d past its {word} in \d+ of 2001 samples[^.]*", plot.alt)[0]
         assert told and len(told) == len(re.findall("oint", said))
         assert all(re.search(rf"oint {j}( past its {word})? in {n}\b", said) for j, n in told)
@@ -269,7 +269,7 @@ def test_joint_values_can_be_lists():
 
 
 def test_player_shows_the_speeds_stored_in_a_recording(motions):
-    """A recording with exact speeds keeps them."""
+    """If a recording contains exact speeds, the player shows these."""
     exact = record(IRB140, T, motions[1])
     slow = replace(exact, v=exact.v / 2)
     speeds = [animate(one).data["arms"][0]["speed"][0] for one in (exact, slow)]
@@ -286,13 +286,13 @@ def test_unblended_corner_is_a_speed_jump_without_acceleration(blended):
     assert -100 < low < 0 < low + step * (count - 1) < 100
 
 
-def test_distance_to_via_is_the_smallest_along_the_path(blended, motions):
+def test_distance_to_the_via_point_is_the_smallest_along_the_path(blended, motions):
     path = IRB140.fk(motions).translation
     wanted = np.linalg.norm(path - VIA.translation, axis=-1).min(axis=-1)
     for (distance, *place), least in zip(blended.data["arms"][0]["via"], wanted, strict=True):
         assert distance == pytest.approx(least / mm, abs=0.051)
         assert np.linalg.norm(place - VIA.translation) == pytest.approx(least, abs=2e-4)
-    # the unblended path passes through the via point, the blended one does not
+    # the unblended path passes through the via point, but the blended one does not
     assert wanted[0] < 1e-9 < 0.03 < wanted[1]
 
 
@@ -313,7 +313,7 @@ def test_motion_without_any_solution_is_shown(motions):
     assert player.data["arms"][0]["via"] == [None] and "<img" in player.html
 
 
-def test_jump_by_two_pi_breaks_the_curve_and_does_not_count_as_a_speed(motions):
+def test_jump_by_two_pi_breaks_the_curve_and_does_not_count_as_speed(motions):
     q = motions[1].copy()
     q[1200:, 3] += 2 * np.pi
     player = animate(IRB140, T, q)
@@ -328,7 +328,7 @@ def test_jump_by_two_pi_breaks_the_curve_and_does_not_count_as_a_speed(motions):
     assert times[gap] <= 11.99 < 12.0 <= times[gap + 1] <= 12.001
 
 
-def test_sawtooth_jumps_in_position_and_has_no_speed_at_its_teeth():
+def test_teeth_of_a_sawtooth_count_as_jumps_in_position_and_not_as_speed():
     """As in lab 12, where C code casts to int: each tooth is less than a tenth of a radian high and
     far from the next one.
     """
@@ -352,11 +352,11 @@ def test_sawtooth_jumps_in_position_and_has_no_speed_at_its_teeth():
         (np.array([0, 0.01, 0.03, 0.04]), "greatest values of the 4 samples, at most 0.02 s apart"),
     ],
 )
-def test_table_names_the_samples_of_its_maxima(t, words):
+def test_table_states_how_its_maxima_were_sampled(t, words):
     assert animate(IRB140, t, np.zeros((len(t), 6))).data["sampled"] == words
 
 
-def test_samples_past_a_limit_are_counted(motions):
+def test_samples_that_exceed_a_limit_are_counted(motions):
     q = motions[1].copy()
     q[:, 1] += 130 * deg
     over = int((q[:, 1] > IRB140.limits[1, 1]).sum())
@@ -366,7 +366,7 @@ def test_samples_past_a_limit_are_counted(motions):
     when = f"from {T[-over]:.2f} to 20.00 s"
     assert note == f"q2 is past its limit in {over} of 2001 samples, {when}, by up to {most:.1f}°."
     fast = animate(IRB140, T / 25, motions[1]).data["arms"][0]["notes"]["0"]
-    assert any("past its speed limit" in note for note in fast)
+    assert any("exceeds its speed limit" in note for note in fast)
 
 
 @pytest.mark.parametrize(
@@ -384,7 +384,7 @@ def test_limits_are_shown_for_joints_near_them():
     # the limit is 180 degrees
     q[:, :, 0] = np.linspace(0, 1, 2001) * np.array([[100], [120], [130]]) * deg
     q[1, :, 1] = np.linspace(0, -89, 2001) * deg  # the limit is -90 degrees
-    q[2, :, 2] = np.linspace(0, 60, 2001) * deg  # past the limit of 50 degrees
+    q[2, :, 2] = np.linspace(0, 60, 2001) * deg  # beyond the limit of 50 degrees
     slow, fast = (
         animate(IRB140, t, q, slider=("x", [0, 1, 2])).data["panels"]
         # joint 1 turns at 195 degrees/s; its limit is 200 degrees/s
@@ -439,12 +439,12 @@ def test_planar_arm_is_viewed_perpendicularly_to_its_plane():
 
 
 def test_everything_drawn_is_in_view(blended, motions):
-    """The few points in the data bound all postures from any side, within a rounding
-    error of 5 mm.
+    """The few points in the data enclose all postures seen from any side, within a rounding error
+    of 5 mm.
     """
     seen = np.array(blended.data["scene"]["seen"])
     points = IRB140.frames(motions[:, ::20]).translation.reshape(-1, 3)
-    flange = IRB140.fk(motions[:, ::20])  # drawn with its axes
+    flange = IRB140.fk(motions[:, ::20])  # the flange is drawn with its axes
     tips = [
         (flange.rotation @ axis) * 0.13 * blended.data["scene"]["size"] + flange.translation
         for axis in (X, Y, Z)
@@ -497,9 +497,9 @@ def test_several_arms_share_clock_and_scales(motions):
         assert abs(decoded(player, k)[0] - motions[[1, 3][k], kept(player)] / deg).max() < 0.01
 
 
-def test_extreme_motion_does_not_coarsen_the_others(motions):
-    """Each motion has its own rounding step: a motion ten times as fast for one slider value does
-    not make the others coarser.
+def test_extreme_motion_does_not_reduce_the_precision_of_the_others(motions):
+    """Each motion has its own rounding step: if the motion for one slider value is ten times as
+    fast, the others are not rounded more coarsely.
     """
     alone = animate(IRB140, T, motions[1:3], slider=("blend", FRACTIONS[1:3]))
     wild = motions[1:].copy()
@@ -586,7 +586,7 @@ def test_distance_to_the_via_point_of_each_motion_is_shown(motions):
     assert moving.data["arms"][0]["via"] is None
 
 
-def test_camera_sees_all_positions_of_moving_things(motions):
+def test_all_positions_of_moving_things_are_in_view(motions):
     path = 3 * CIRCLING
     player = animate(IRB140, T, motions[1], circles=[(path, 0.2)])
     seen = np.array(player.data["scene"]["seen"])
@@ -654,7 +654,7 @@ def test_still_picture_has_every_arm_at_its_base(motions):
     )
 
 
-def test_arms_on_bases_show_no_distance_to_via(motions):
+def test_arms_on_bases_show_no_distance_to_the_via_point(motions):
     via = {"via": IRB140.fk(motions[1][900])}
     pair = [IRB140] * 2, T, [motions[1]] * 2
     assert animate(*pair, targets=via).data["arms"][0]["via"]
@@ -706,7 +706,7 @@ def test_invalid_things_are_refused(motions, change, message):
 # --- Size and reproducibility ---------------------------------------------------------------------
 
 
-def test_rounding_noise_does_not_change_the_page(blended, motions):
+def test_rounding_errors_do_not_change_the_page(blended, motions):
     again = animate(IRB140, T, motions, targets=[START, VIA, GOAL], slider=("blend", FRACTIONS))
     assert again.html == blended.html
     noise = 1 + 1e-15 * np.random.default_rng(1).standard_normal(motions.shape)
@@ -759,7 +759,7 @@ def test_data_cannot_end_the_script(motions):
     assert json.loads(player.text)["title"] == "</script><b>"
 
 
-# --- Saving and wrong calls -----------------------------------------------------------------------
+# --- Saving and invalid calls ---------------------------------------------------------------------
 
 
 def test_save_writes_one_page_and_keeps_other_files(tmp_path, blended):
@@ -866,7 +866,7 @@ def test_titles_and_names_are_plain_text(motions):
         ({"switch": ("corner", ["one"])}, ValueError, "at least two strings"),
         ({"switch": ("corner", [1, 2])}, ValueError, "switch: wanted a string"),
         ({"switch": ("corner", ["one", "two"])}, ValueError, r"wanted shape \(2, 2001, 6\)"),
-        ({"names": ["x"]}, ValueError, "names: wanted only with a list"),
+        ({"names": ["x"]}, ValueError, "names: allowed only with a list"),
         ({"arm": [IRB140, IRB140]}, ValueError, "one array for each of 2 arms"),
         (
             {"arm": [IRB140], "q": [np.zeros((2001, 6))], "names": ["a", "b"]},
@@ -887,7 +887,7 @@ def test_titles_and_names_are_plain_text(motions):
         ({"circles": [((0, 0, 0), -1)]}, ValueError, "radius"),
     ],
 )
-def test_errors_name_the_wrong_argument_and_what_is_wanted(change, kind, message):
+def test_errors_name_the_invalid_argument_and_say_what_is_wanted(change, kind, message):
     call = {"arm": IRB140, "t": T, "q": np.zeros((2001, 6))} | change
     arm, t, q = call.pop("arm"), call.pop("t"), call.pop("q")
     with pytest.raises(kind, match=message):
@@ -897,7 +897,7 @@ def test_errors_name_the_wrong_argument_and_what_is_wanted(change, kind, message
 def test_invalid_recordings_are_refused(motions):
     one = record(IRB140, T, motions[1])
     for wrong, message in (
-        (lambda: animate(one, T), "not wanted with recordings"),
+        (lambda: animate(one, T), "not allowed with recordings"),
         (lambda: animate(one, slider=("x", [1, 2])), r"wanted shape \(2, 2001, 6\)"),
         (lambda: animate(record(IRB140, T[:2], motions[1, :2])), "at least three times"),
         (lambda: animate([one, record(IRB140, 2 * T, motions[1])]), "the same times"),
@@ -919,7 +919,7 @@ def test_file_name_without_html_is_refused(blended, path):
 
 @pytest.fixture
 def page(browser):
-    """A page that must not report errors or send requests."""
+    """A page that must not report errors or send requests to other hosts."""
     page = browser.new_page(viewport={"width": 900, "height": 900})
     complaints = []
     page.on(
@@ -996,7 +996,7 @@ def test_the_slider_changes_arm_curves_and_numbers(page, blended, tmp_path):
     assert said == f"The path passes {arm['via'][3][0]:.1f} mm from via."
 
 
-def test_keyboard_alone_can_play_pause_and_scrub(page, blended, tmp_path):
+def test_player_can_be_played_paused_and_scrubbed_by_keyboard_alone(page, blended, tmp_path):
     show(page, blended, tmp_path)
     time = page.get_by_label("time", exact=True)
     assert time.input_value() == "0"
@@ -1029,9 +1029,7 @@ def test_keyboard_alone_can_play_pause_and_scrub(page, blended, tmp_path):
     assert page.get_by_text("20.00 s").count() == 1
 
 
-def test_key_presses_on_controls_do_not_reach_jupyterlab_and_controls_have_names(
-    page, blended, tmp_path
-):
+def test_controls_have_names_and_their_key_presses_do_not_reach_jupyterlab(page, blended, tmp_path):
     show(page, blended, tmp_path)
     controls = page.locator("input, select, button, canvas[tabindex]")
     assert controls.count() >= 5
@@ -1086,8 +1084,8 @@ def test_removed_player_requests_no_more_frames(page, blended, tmp_path):
 
 @pytest.mark.parametrize("width", [360, 800, 1400])
 def test_limit_labels_do_not_overlap(page, tmp_path, width):
-    """Six joints move from limit to limit; each panel has at most three labels, with units and
-    without overlap.
+    """Six joints move from limit to limit; each panel has at most three labels, which have units
+    and do not overlap.
     """
     s = np.sin(np.outer(T, np.arange(1, 7)) / 4)
     q = IRB140.limits.mean(axis=-1) + s * np.diff(IRB140.limits, axis=-1).T / 2 * 0.99
@@ -1121,7 +1119,7 @@ def test_nothing_is_cut_off_at_any_width(page, blended, tmp_path, width):
     assert all(box["width"] > 250 and box["height"] > 250 for box in boxes)
 
 
-def test_page_without_scripts_shows_the_still(browser, blended, tmp_path):
+def test_page_without_scripts_shows_the_still_picture(browser, blended, tmp_path):
     blended.save(tmp_path / "player.html")
     context = browser.new_context(java_script_enabled=False)
     page = context.new_page()
@@ -1132,8 +1130,8 @@ def test_page_without_scripts_shows_the_still(browser, blended, tmp_path):
 
 
 def test_marks_move_on_the_page(page, motions, tmp_path):
-    """The arm rests; only the mark changes with time and slider, and it is missing
-    where it is NaN.
+    """The arm does not move; only the mark changes with time and slider, and it is missing where it
+    is NaN.
     """
     q = np.broadcast_to(motions[1, 0], (2, 2001, 6))
     path = np.stack([CIRCLING, CIRCLING + [0, 0, 0.2]])
@@ -1163,8 +1161,8 @@ def test_marks_move_on_the_page(page, motions, tmp_path):
 
 
 def test_arms_on_bases_are_drawn_separately_and_readings_change(page, tmp_path):
-    """Two arms rest; the test checks where they and their points are drawn, and when the readings
-    change.
+    """Two arms do not move; the test checks where they and their points are drawn, and when the
+    readings change.
     """
     arm, t = spbu_arm(0.5, 0.4), np.linspace(0, 4, 41)
     q = np.broadcast_to([0.2, 0.4, 0.3], (41, 3))
@@ -1289,7 +1287,7 @@ def test_still_picture_explains_how_to_start_the_view(page, browser, blended, tm
     context.close()
 
 
-def test_page_that_cannot_draw_keeps_the_still(page, blended, tmp_path):
+def test_page_that_cannot_draw_keeps_the_still_picture(page, blended, tmp_path):
     page.add_init_script("HTMLCanvasElement.prototype.getContext = () => null")
     for output in (blended, joint_explorer(IRB140), motor_explorer()):
         output.save(tmp_path / "still.html")
@@ -1300,8 +1298,8 @@ def test_page_that_cannot_draw_keeps_the_still(page, blended, tmp_path):
 
 
 def test_scene_projects_points_and_can_hold_its_camera_still(page, blended):
-    """For handles over the canvas, `cameras` projects points as in the picture; while the scene is
-    held, a target that leaves the picture moves nothing else.
+    """For handles over the canvas, `cameras` projects points in the same way as the picture. While
+    the scene is held, a target that leaves the picture does not move anything else.
     """
     scene = blended.data["scene"] | {"grows": True, "unit": blended.data["unit"]}
     page.set_content(
@@ -1337,8 +1335,8 @@ def test_scene_projects_points_and_can_hold_its_camera_still(page, blended):
 
 
 def test_solid_floor_hides_objects_below_it(page):
-    """The tool goes below its base: the floor is below the tool, or at height 0 with `floor`. A
-    floor at height 0 hides parts of the arm below it and leaves the arm above it unchanged.
+    """The tool goes below the arm's base. The floor is below the tool, or at height 0 with `floor`.
+    A floor at height 0 hides the parts of the arm below it and does not change the others.
     """
     t, turn = np.linspace(0, 2, 41), np.linspace(0, 1, 41)[:, None]
     q = turn * np.array([60, 100, 70]) * deg - np.array([0, 20, 20]) * deg

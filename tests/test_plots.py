@@ -77,7 +77,7 @@ def law_of_listing_1(t, total=20.0):
 
 
 def curves(ax):
-    """The joint curves of a panel: name -> (samples, 2)."""
+    """The joint curves of a panel: a dict that maps names to arrays (samples, 2)."""
     return {
         line.get_label(): np.column_stack(line.get_data())
         for line in ax.lines
@@ -147,7 +147,7 @@ def test_prismatic_joints_have_separate_panels_in_millimetres():
     assert "mm" in right.get_ylabel() and "°" in left.get_ylabel()
 
 
-def test_joints_differ_in_colour_and_dash(rounded):
+def test_joints_differ_in_colour_and_dash_pattern(rounded):
     lines = [
         line
         for line in plot_joints(IRB140, T, rounded).axes[0].lines
@@ -165,9 +165,7 @@ def test_joints_differ_in_colour_and_dash(rounded):
 
 
 def test_violations_of_task_1_are_counted_and_marked():
-    """Errata S1-h: 673 of the document's 2000 samples are past a limit, the last one at
-    t = 6.72.
-    """
+    """Errata S1-h: 673 of the document's 2000 samples exceed a limit, the last one at t = 6.72."""
     t = np.arange(0, 20, 0.01)
     q = follow(IRB140, IRB140.ik(law_of_listing_1(t)), IRB140.branch(1, 1, 1))
     case = oracle("trajectories_irb140")["cases"][0]
@@ -203,7 +201,7 @@ def test_distant_limits_do_not_flatten_the_curves(rounded):
         assert np.ptp(values / deg) > 0.8 * (high - low)
 
 
-def test_speeds_past_the_limit_are_counted():
+def test_speeds_above_the_limit_are_counted():
     t = np.linspace(0, 2, 401)
     q = np.zeros((401, 6))
     q[:, 1] = np.sin(4 * t)  # its speed exceeds 200 deg/s where 4 |cos 4 t| > 3.49
@@ -239,7 +237,7 @@ def test_corner_does_not_flatten_the_accelerations(corner):
     )
     # the spike is still drawn
     assert max(abs(curve[:, 1]).max() for curve in curves(ax).values()) == pytest.approx(greatest)
-    assert "spike" not in words(fig.axes[1])  # a jump in speed is not a spike
+    assert "spike" not in words(fig.axes[1])  # a jump in speed does not count as a spike
 
 
 def test_no_acceleration_is_shown_at_a_speed_jump(corner):
@@ -266,7 +264,7 @@ def test_given_values_replace_those_of_the_recording(corner):
     assert "Greatest speed 31.2 °/s (q3)." in fig.alt
     slow = plot_joints(found, v=found.v / 2)
     assert "Greatest speed 15.6 °/s (q3)." in slow.alt and "None at 10 s" in slow.alt
-    # the accelerations of a caller who knows them at the jump too
+    # accelerations from a caller who also knows them at the jump
     exact = np.where(np.isnan(found.a), 0.1, found.a)
     calm = plot_joints(IRB140, T, corner, found.v, exact).alt
     assert "spike" not in calm.lower() and "None at" not in calm
@@ -290,8 +288,8 @@ def test_two_kinds_of_spikes_are_distinguished():
         assert high - low < 10
 
 
-def test_ordinary_values_are_not_spikes():
-    """A caller may know the correct speed at a jump in position."""
+def test_ordinary_values_do_not_count_as_spikes():
+    """The caller gives the correct speed at each jump in position."""
     q, v = np.zeros((2001, 6)), np.zeros((2001, 6))
     v[:, 3] = np.cos(T)
     q[:, 3] = (np.sin(T) + 3) % 3.5
@@ -314,7 +312,7 @@ def test_jumps_in_position_are_reported_with_their_size():
     assert f"q{turning + 1} jumps by up to 90° at 4 places" in words(left)
 
 
-def test_long_bursts_are_not_spikes(rounded):
+def test_long_bursts_do_not_count_as_spikes(rounded):
     a = differentiate(rounded, T, 2)
     ax = plot_joints(IRB140, T, rounded, None, a).axes[1]
     low, high = ax.get_ylim()
@@ -322,16 +320,17 @@ def test_long_bursts_are_not_spikes(rounded):
 
 
 def test_constant_motion_is_drawn_flat():
-    """Rounding noise of a constant speed must not fill the panel."""
+    """Rounding errors of a constant speed must not fill the panel."""
     t = np.linspace(0, 1, 101)
     noise = 1e-13 * np.random.default_rng(1).normal(size=(101, 6))
     fig = plot_joints(IRB140, t, np.zeros((101, 6)), None, noise)
     low, high = fig.axes[1].get_ylim()
     assert high - low > 1e-3
-    assert "Greatest acceleration 0 °/s²." in fig.alt  # noise must not decide which joint is named
+    # rounding errors must not decide which joint is named
+    assert "Greatest acceleration 0 °/s²." in fig.alt
 
 
-def test_whole_turn_is_drawn_and_reported():
+def test_jump_by_a_whole_turn_is_drawn_and_reported():
     raw = IRB140.ik(lin_lin(START, VIA, GOAL, linear(20.0)(T)))[:, IRB140.branch(1, 1, 1)]
     fig = plot_joints(IRB140, T, raw, differentiate(raw, T))
     at = T[1:][abs(np.diff(raw[:, 3])) > 6]
@@ -350,12 +349,12 @@ def test_gaps_in_a_motion_remain_gaps_in_its_curves(rounded):
     fig = plot_joints(IRB140, T, q, differentiate(q, T))
     drawn = curves(fig.axes[0])["q1"][:, 1]
     np.testing.assert_array_equal(np.isnan(drawn), np.isnan(q[:, 0]))
-    # the curves do not reach the edge, where their names would be
+    # the curves do not reach the right edge, where their names would be
     assert fig.axes[0].get_legend() is not None
     assert "nan" not in fig.alt.lower()
 
 
-def test_names_at_the_ends_do_not_overlap(rounded):
+def test_names_at_the_ends_of_curves_do_not_overlap(rounded):
     # six curves that end at the same point
     fig = plot_joints(IRB140, T, rounded, differentiate(rounded, T) * 0)
     fig.canvas.draw()
@@ -365,7 +364,7 @@ def test_names_at_the_ends_do_not_overlap(rounded):
             (box.y0, box.y1)
             for text in ax.texts
             if re.fullmatch(r"q\d", text.get_text())
-            # the box of the text without its leader line
+            # the box of the text alone, without its leader line
             for box in [Text.get_window_extent(text, renderer)]
         )
         assert len(boxes) == 6 and all(
@@ -403,15 +402,15 @@ def test_names_at_the_ends_do_not_overlap(rounded):
         (lambda q: figure("Wide", width=101), ValueError),
     ],
 )
-def test_wrong_arguments_are_named_in_the_error(bad, kind, rounded):
-    with pytest.raises(kind, match="wanted .*got|not wanted"):
+def test_errors_name_the_invalid_argument(bad, kind, rounded):
+    with pytest.raises(kind, match="wanted .*got|not allowed"):
         bad(rounded)
 
 
 # --- Spatial views --------------------------------------------------------------------------------
 
 
-def test_cube_keeps_its_proportions(figures):
+def test_cube_is_drawn_with_true_proportions(figures):
     """The corners of a cube in pixels. By Gauss's theorem of axonometry, a picture is a scaled
     orthographic projection if a^2 + b^2 + c^2 = 0 for the images of the axes as complex numbers.
     """
@@ -526,7 +525,7 @@ def test_frames_with_a_common_origin_are_named_at_their_axes():
         (62.5, "62.5"),
     ],
 )
-def test_numbers_are_formatted_for_people(value, text):
+def test_numbers_are_formatted_readably(value, text):
     assert number(value) == text
 
 
@@ -555,9 +554,9 @@ class Images(HTMLParser):
 
 
 @pytest.mark.parametrize("machine", MACHINES, ids=repr)
-def test_ellipsoid_contains_the_velocities_without_rotation(machine):
-    """Random joint speeds that keep the tool's orientation, from a null space calculated here: no
-    velocity leaves the ellipsoid, and its longest semi-axis is nearly reached.
+def test_ellipsoid_contains_all_velocities_at_constant_orientation(machine):
+    """For random joint speeds that keep the tool's orientation, from a null space computed here, no
+    velocity is outside the ellipsoid, and one nearly reaches the end of its longest semi-axis.
     """
     arm = machine.arm
     rng = np.random.default_rng(6)
@@ -640,7 +639,7 @@ def test_alt_text_reaches_the_page_of_an_untrusted_notebook(figures, browser):
     page.close()
 
 
-def test_pictures_are_small_and_have_a_palette(figures):
+def test_pictures_are_small_and_use_a_colour_palette(figures):
     for name, fig in figures.items():
         data = palette_png(fig)
         image = Image.open(io.BytesIO(data))
@@ -672,7 +671,7 @@ ODD = "a $\\frac{ b$ \ud800 _c_ & <d>"
 
 
 def test_titles_and_names_are_plain_text(rounded):
-    """Titles are not read as formulas unless requested; lone surrogates are replaced."""
+    """Titles are not interpreted as formulas unless requested; lone surrogates are replaced."""
     shown = ODD.replace("\ud800", "\ufffd")
     figs = [
         plot_joints(IRB140, T, rounded, title=ODD, alt=ODD),
@@ -725,7 +724,7 @@ def test_plots_do_not_import_pyplot():
 # --- Sketches -------------------------------------------------------------------------------------
 
 
-def test_sketch_has_true_proportions():
+def test_sketch_is_drawn_to_scale():
     sketch = Sketch("Two levers.", title="Bent", x="ahead", y="up")
     corners = np.array([[0, 0], [0.3, 0.4], [0.6, 0.1]])
     sketch.levers(corners, ["O", "A", "K"])

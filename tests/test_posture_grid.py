@@ -1,5 +1,5 @@
-"""The search in a grid of postures: it takes as many steps as SciPy's shortest paths, and a path
-traced back uses only postures that are free at their tick.
+"""The search in a grid of postures: its paths have as many steps as SciPy's shortest paths, and a
+path that is traced back uses only postures that are free at their tick.
 """
 
 import itertools

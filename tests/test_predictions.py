@@ -1,4 +1,4 @@
-"""Predictions: the text of a page before and after each choice; choices are made by mouse and by
+"""Predictions: the text of a page before and after each choice. Choices are made by mouse and by
 keyboard, typed, remembered, and printed in the notebook.
 """
 
@@ -98,7 +98,7 @@ def test_every_option_can_be_chosen_and_gets_a_reply(opened, k, width):
     before = seen(page)
     assert "It is 6.2 now." in before and "twice as much" in before
     for hidden in ("view opens", REASON, "No: ", "in proportion", "99"):
-        assert hidden not in before, "something is shown before the choice"
+        assert hidden not in before, "a part of the reply is shown before the choice"
     assert guess(page).is_disabled()
     page.get_by_label(f"{'abc'[k]})").check()
     assert "view opens" not in seen(page), "a choice is not yet a guess"
@@ -106,8 +106,8 @@ def test_every_option_can_be_chosen_and_gets_a_reply(opened, k, width):
     after = seen(page)
     assert REASON in after and "view opens" in after and "It has two lines." in after
     option = asked.options[k]
-    assert option.reason in after and "Kept in this browser only." in after
-    assert "predict(" not in after, "no advice to edit a folded cell"
+    assert option.reason in after and "Saved in this browser only." in after
+    assert "predict(" not in after, "the reply must not suggest editing a folded cell"
     assert ("No: " in after) == (k != 1) and ("Right." in after) == (k == 1)
     if k != 1:
         assert option.confusion in after and option.second in after
@@ -146,7 +146,7 @@ def test_questions_can_be_answered_by_keyboard_alone(opened):
         ("0", "The right answer is 200 mm."),
     ],
 )
-def test_page_and_notebook_judge_numbers_alike(opened, typed, says):
+def test_page_and_notebook_judge_numbers_identically(opened, typed, says):
     page = opened(Asked("made.p2", TYPED, None))
     assert "100" not in seen(page) and "200" not in seen(page)
     page.get_by_label("your guess, mm").fill(typed)
@@ -164,7 +164,7 @@ def test_page_remembers_and_forgets_choices(opened, browser):
     assert "You guessed here before" not in seen(page)
     again = opened(asked, within=context)
     assert "No: in proportion." in seen(again) and "view opens" in seen(again)
-    assert "You guessed here before. Kept in this browser only." in seen(again)
+    assert "You guessed here before. Saved in this browser only." in seen(again)
     again.get_by_role("button", name="Ask me again").click()
     again.get_by_label("b)").check()
     guess(again).click()
@@ -185,11 +185,11 @@ def test_page_works_when_storage_is_forbidden(opened, browser):
     page = opened(Asked("made.p1", words(), None), within=context)
     page.get_by_label("b)").check()
     guess(page).click()
-    assert REASON in seen(page) and "Kept on this page only." in seen(page)
+    assert REASON in seen(page) and "Saved on this page only." in seen(page)
 
 
 def test_question_can_occur_twice_in_a_page(opened):
-    """As in JupyterLab's "New View for Cell Output": the script runs a second time."""
+    """The script runs a second time, as it does in JupyterLab after "New View for Cell Output"."""
     asked = Asked("made.p1", words(), None)
     page = opened(asked)
     page.evaluate(
@@ -251,8 +251,8 @@ def moving():
 
 
 @pytest.mark.parametrize("asked", [words(moving), TYPED], ids=["letters", "number"])
-def test_answer_opens_without_a_guess_and_a_guess_may_follow(opened, asked):
-    """The second control reports nothing, and it is there again for "Ask me again"."""
+def test_answer_can_be_shown_without_a_guess_and_a_guess_can_follow(opened, asked):
+    """The control for the answer does not record a guess, and "Ask me again" shows it again."""
     asked = Asked("made.p1", asked, None)
     page = opened(asked)
     page.get_by_text(UNGUESSED).focus()
@@ -279,7 +279,7 @@ def test_answer_opens_without_a_guess_and_a_guess_may_follow(opened, asked):
 @pytest.mark.parametrize("scripts", [True, False])
 def test_answer_and_picture_are_printed(opened, scripts):
     page = opened(Asked("made.p1", words(moving), None), java_script_enabled=scripts)
-    # laid out for paper, the view is seen, and Chromium may start it before it prints
+    # in print layout the view is visible, so Chromium may start it before it prints the page
     picture = page.locator(".robokin-view").locator("img, .rk-scene").first
     assert not picture.is_visible() and not page.get_by_text(REASON).is_visible()
     page.emulate_media(media="print")
@@ -297,8 +297,10 @@ def test_a_guessed_number_is_printed(opened):
     assert field.is_visible() and field.input_value() == "100"
 
 
-def test_focus_stays_on_the_second_control_when_the_question_starts(browser, tmp_path):
-    """Tab reaches the control of a question that is far away; only then does its script start."""
+def test_focus_stays_on_the_control_for_the_answer_when_the_question_starts(browser, tmp_path):
+    """The Tab key reaches the control of a question that is far down the page, and the question's
+    script starts only then.
+    """
     path = tmp_path / "far.html"
     Asked("made.p1", words(), None).save(path)
     far = re.sub("(<body[^>]*>)", r'\1<div style="height:5000px"></div>', path.read_text())
@@ -314,7 +316,7 @@ def test_focus_stays_on_the_second_control_when_the_question_starts(browser, tmp
     page.close()
 
 
-def test_answer_opens_without_scripts(opened):
+def test_answer_can_be_shown_without_scripts(opened):
     page = opened(Asked("made.p1", words(moving), None), java_script_enabled=False)
     page.get_by_text(UNGUESSED).click()
     assert page.locator("img").is_visible() and REASON in seen(page)
@@ -322,7 +324,7 @@ def test_answer_opens_without_scripts(opened):
     assert html.count(moving().text) == 1 and html.count("data:image/png") == 1
 
 
-def test_a_question_with_a_choice_has_no_second_control(opened):
+def test_question_with_a_choice_has_no_control_for_the_answer(opened):
     page = opened(Asked("made.p1", words(moving), "a"))
     awake(page)
     assert page.get_by_text(UNGUESSED).count() == 0 and page.locator(".rk-scene").is_visible()
@@ -349,7 +351,7 @@ NEIGHBOURS = """cell => [cell.previousElementSibling, cell, cell.nextElementSibl
         e.querySelector(".jp-InputArea")?.innerText.slice(0, 80)])"""
 
 
-def test_question_in_jupyterlab_works_and_keeps_its_keys(jupyter, page):
+def test_question_in_jupyterlab_works_and_its_keys_trigger_no_notebook_commands(jupyter, page):
     """The notebook is trusted and has never run: the question works by keyboard, and none of its
     keys triggers a notebook command.
     """
@@ -390,9 +392,9 @@ def test_untrusted_question_in_jupyterlab_explains_how_to_answer(jupyter, page):
 
 
 @pytest.mark.parametrize("lab", ["02_irb140_kinematics", "03_irb140_motion"])
-def test_exported_lab_asks_its_questions_on_a_phone(browser, exported, lab):
-    """The page is opened from a file at a width of 390 px and used by touch; then every question is
-    answered again by keyboard.
+def test_questions_of_an_exported_lab_work_on_a_phone(browser, exported, lab):
+    """The page is opened from a file at a width of 390 px and operated by touch; then every
+    question is answered again by keyboard.
     """
     context = browser.new_context(viewport={"width": 390, "height": 844}, has_touch=True)
     page = context.new_page()

@@ -97,7 +97,7 @@ def test_from_matrix_is_accurate_at_half_turns(axis):
         same(Quaternion.from_matrix(rotation.as_matrix()), rotation)
 
 
-def test_from_matrix_takes_batches_and_repairs_printed_digits():
+def test_from_matrix_accepts_batches_and_corrects_rounded_digits():
     m = scipy(random((6,))).as_matrix().reshape(3, 1, 2, 3, 3)
     q = Quaternion.from_matrix(np.round(m, 8))
     assert q.shape == (3, 1, 2)
@@ -136,7 +136,7 @@ def test_slerp_turns_at_constant_speed_and_nlerp_does_not():
 
 def test_slerp_of_half_a_turn_depends_on_the_signs():
     """Both arcs are equally long: the signs of the two quaternions decide between them, and
-    rounding noise does not.
+    rounding errors do not.
     """
     one = Quaternion.identity()
     for noise in (-4e-16, 0, 4e-16):
@@ -154,7 +154,7 @@ def test_slerp_between_nearly_equal_rotations_keeps_all_digits():
         goal = Quaternion.from_angle_axis(angle, (0.6, 0, 0.8))
         third = Quaternion.identity().slerp(goal, 1 / 3)
         assert np.allclose(third.as_angle_axis()[0], angle / 3, rtol=1e-12, atol=0)
-        # here the two rotations differ only in their last digits
+        # now the two rotations differ only in their last digits
         base = Quaternion.from_angle_axis(2.0, (0, 1, 0))
         turned = base.slerp(base @ goal, 1 / 3)
         assert np.allclose(
@@ -297,7 +297,7 @@ def test_roll_is_zero_at_vertical_pitch(pitch):
 @pytest.mark.parametrize("sign", [1, -1])
 def test_roll_pitch_yaw_keep_their_digits_near_vertical_pitch(sign):
     """The nearer the pitch is to a quarter turn, the fewer correct digits roll and yaw have; the
-    rotation that they make together keeps all its digits.
+    rotation that they describe together keeps all its digits.
     """
     rng = np.random.default_rng(15)
     for off in 10.0 ** np.arange(-17, 0.5, 0.25):

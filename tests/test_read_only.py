@@ -1,7 +1,7 @@
 """Visible arrays are read-only copies of the arguments.
 
-Assignments that a student might make are tried on everything reachable from the robots and from the
-values of a lesson, in a separate process before anything is computed there: each assignment raises
+A separate process tries assignments that a student might make, on everything that can be reached
+from the robots and from the values of a lesson, before it computes anything. Each assignment raises
 an error or changes nothing, and `ik` is correct afterwards.
 """
 
@@ -89,7 +89,8 @@ def plan():
     return obstacles.plan(three_lever(0.5), HOME, (0.6, 0.5), (0.2, 1.1))
 
 
-# name -> a function that makes the object. The robots come first, before their inverse is used.
+# For each name: a function that makes the object. The robots come first, before their inverse is
+# used.
 ROOTS = {
     **{name: lambda arm=arm: arm for name, arm in MACHINES.items()},
     "three_lever": lambda: three_lever(0.5),
@@ -130,7 +131,7 @@ ROOTS = {
     "LEVERS": lambda: obstacles.LEVERS,
 }
 
-# Values that keep an array: name -> (a function that makes the value, the array)
+# Values that contain an array: for each name, a function that makes the value, and the array.
 KEEPS = {
     "Quaternion": (Quaternion, [[0.6, 0.8, 0, 0], [1, 0, 0, 0]]),
     "Quaternion.from_matrix": (Quaternion.from_matrix, np.eye(3)),
@@ -190,7 +191,7 @@ MOVE = steppers.synchronised([0, 0, 0], [40, -20, 8])
 
 @pytest.fixture(scope="module")
 def tried():
-    """The output of two new processes: one makes all attempts to write, the other makes none."""
+    """The output of two new processes: one attempts every write, the other attempts none."""
     runs = [
         subprocess.Popen([sys.executable, __file__, how], stdout=subprocess.PIPE, text=True)
         for how in ("attack", "look")
@@ -219,12 +220,12 @@ def test_arguments_are_copied(name):
     given = np.array(given, dtype=float)
     value = make(given)
     before = dict(_seen(value))
-    given += 1  # the caller's own array is still writable
+    given += 1  # the caller can still change its own array
     assert before and dict(_seen(value)) == before
 
 
 @pytest.mark.parametrize("name", GIVES)
-def test_results_belong_to_the_caller(name):
+def test_changes_to_a_result_do_not_affect_later_results(name):
     first = GIVES[name]()
     before = first.copy()
     first[...] = 99
@@ -266,7 +267,7 @@ def _values(value):
 
 @pytest.fixture(scope="module")
 def examples():
-    """One value of each class, including values cached on first use: class -> value."""
+    """One value of each class, including values that are cached on first use, by class."""
     found = {}
     for make in ROOTS.values():
         for value in _values(make()):
@@ -280,7 +281,9 @@ def examples():
 @pytest.mark.parametrize("how", COPIES)
 def test_copies_are_read_only_too(examples, kind, how):
     assert issubclass(kind, Sealed) and kind.__dataclass_params__.frozen
-    assert kind.__setattr__ is not kind.__mro__[1].__setattr__, "a frozen base seals only itself"
+    assert kind.__setattr__ is not kind.__mro__[1].__setattr__, (
+        "a frozen base class protects only itself"
+    )
     value = COPIES[how](examples[kind])
     assert dict(_seen(value)) == dict(_seen(examples[kind]))
     for name in [*vars(value), "another"]:

@@ -1,5 +1,5 @@
-"""The content of a recording: the derivatives of `differentiate`, and the samples where they are
-undefined.
+"""The content of a recording: the derivatives computed by `differentiate`, and the samples where
+they are undefined.
 """
 
 import pickle
@@ -249,7 +249,7 @@ def test_turn_by_two_pi_between_samples_is_a_jump():
 
 
 @pytest.mark.parametrize("size, leap", [(0.0019, False), (0.0021, True), (3.0, True)])
-def test_step_from_rest_is_a_jump_above_2_mrad(size, leap):
+def test_step_from_rest_is_a_jump_if_it_exceeds_2_mrad(size, leap):
     t = np.linspace(0, 1, 101)
     q = np.zeros((101, 6))
     q[50:, 0] = size
@@ -301,7 +301,7 @@ def test_teeth_of_four_samples_or_more_are_jumps():
         found = record(two_link(1, 1), t, q)
         inside = [
             jump for jump in found.leaps if 2 < jump.first < 197
-        ]  # other rules apply at the ends
+        ]  # other rules apply near the ends
         assert [jump.first for jump in inside] == [i for i in falls if 2 < i < 197] * leaps
         for jump in inside:
             np.testing.assert_allclose(jump.by, [-0.05 * period, -0.025 * period], atol=1e-9)
@@ -451,7 +451,7 @@ def test_jump_at_an_end_is_found(first):
 # --- Limits and greatest values -------------------------------------------------------------------
 
 
-def test_excess_is_how_far_each_joint_value_is_past_its_limit():
+def test_excess_is_how_far_each_joint_value_is_beyond_its_limit():
     q = wave(size=2.5)
     q[40:50] = np.nan
     found = record(IRB140, UNEVEN, q)
@@ -466,7 +466,7 @@ def test_excess_is_how_far_each_joint_value_is_past_its_limit():
     assert found.excess[np.isfinite(found.excess)].min() == 0
 
 
-def test_joint_at_its_limit_is_not_past_it():
+def test_joint_at_its_limit_does_not_exceed_it():
     q = np.broadcast_to(IRB140.limits[:, 1], (5, 6)) + 1e-10
     assert (record(IRB140, np.arange(5), q).excess == 0).all()
     q = np.broadcast_to(IRB140.limits[:, 0], (5, 6)) - 2e-9
@@ -632,6 +632,6 @@ def test_continuous_turning_causes_no_warning(recwarn):
         (lambda q: replace(record(IRB140, T, q), leaps=[]), TypeError, "tuple of Jumps"),
     ],
 )
-def test_errors_name_the_wrong_argument_and_say_what_is_wanted(wrong, kind, message, motions):
+def test_errors_name_the_invalid_argument_and_say_what_is_wanted(wrong, kind, message, motions):
     with pytest.raises(kind, match=message):
         wrong(motions[1])

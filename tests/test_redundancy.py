@@ -1,5 +1,5 @@
-"""Methods that choose the posture of the three-lever arm: each keeps its promise, and none moves
-less than the least movement.
+"""Methods that choose the posture of the three-lever arm: each behaves as documented, and none
+moves the arm less than the method of least movement.
 
 The gripper's positions come from `chain` (complex numbers), not from robokin; NumPy inverts the
 Jacobians.
@@ -47,8 +47,8 @@ def tasks(arm, n, seed=4):
 
 @arms
 @pytest.mark.parametrize("name", NAMES)
-def test_methods_arrive_within_the_limits_or_return_nan(arm, name):
-    """For a single task, no method moves less than the least movement."""
+def test_methods_reach_the_target_within_the_limits_or_return_nan(arm, name):
+    """For a single task, no method moves the arm less than the method of least movement."""
     K, before = tasks(arm, 400)
     q = methods(H, 0)[name](arm, K, before)
     failed = np.isnan(q).any(axis=-1)
@@ -60,7 +60,7 @@ def test_methods_arrive_within_the_limits_or_return_nan(arm, name):
     assert np.nanmin(more) > -1e-8
     if name == "least movement":
         assert not failed.any() and np.nanmax(more) < 1e-12
-    else:  # the bound is not trivial: the other methods usually move more
+    else:  # the bound is not trivial: the other methods usually move the arm more
         assert np.nanmedian(more) > 0.01
     far = methods(H, 0)[name](arm, 4 * K, before)
     assert np.isnan(far[np.hypot(*(4 * K).T) > arm.reach]).all()
@@ -209,7 +209,7 @@ def test_invalid_races_are_refused():
     for wrong in ((K[0], before[0]), (K[:0], before[0]), (K, before)):
         with pytest.raises(ValueError, match=r"targets and start: wanted shapes \(n, 2\) and"):
             race(all_of_them, ARMS["equal"], *wrong)
-    with pytest.raises(ValueError, match=r"methods: wanted a dict of name -> function, got 3"):
+    with pytest.raises(ValueError, match=r"methods: wanted a dict of functions by name, got 3"):
         race(3, ARMS["equal"], K, before[0])
     dice = random_choice(5)
     with pytest.raises(ValueError, match="methods: wanted each function only once, got {'one'"):

@@ -1,4 +1,4 @@
-"""`python -m robokin.course report`: a lab judged again, as one page to hand in.
+"""`python -m robokin.course report`: a lab is judged again and written as one page to hand in.
 
 The labs are written here, so that the verdict on every answer is known in advance.
 """
@@ -35,8 +35,8 @@ animate(IRB140, t, q, title="A turn of every joint")"""
 
 @pytest.fixture(scope="module")
 def hostile(tmp_path_factory):
-    """One lab with nearly every possible problem, judged once: its path, its page, and the data of
-    the page.
+    """A lab with nearly every possible problem, which is judged once: its path, its page, and the
+    data of the page.
     """
     folder = tmp_path_factory.mktemp("hostile")
     lab = stored(
@@ -55,7 +55,7 @@ def hostile(tmp_path_factory):
         '%time 1\ncheck("scara_motion.1", answer=least_turn)',
         "def inside(q):\n    return True",
         cell('course_check = check\ncheck("scara_motion.2", inside)', "scara_motion.2: holds."),
-        solution("scara_motion.3"),  # a solution for the numbers of "your name"
+        solution("scara_motion.3"),  # solves the variant of "your name"
         cell('check("scara_motion.3", design, who=who)', "scara_motion.3: holds."),
         "exit()",
         "print('still here')",
@@ -72,13 +72,14 @@ def test_verdicts_match_the_answers(hostile):
     assert two["state"] == "does not hold" and two["points"] == wrong.points < 1
     assert (two["mistake"], two["case"]) == (wrong.mistake, wrong.case) and wrong.mistake
     assert tuple(two["says"]) == wrong.says
-    assert three["state"] == "does not hold"  # correct for "your name", but Ada's numbers differ
+    # the answer is correct for "your name", but Ada's numbers differ
+    assert three["state"] == "does not hold"
     assert [state for _, state in objectives(hostile.data)] == ["holds", "begun", "begun"]
     assert hostile.data["who"] == "Ada Lovelace" and hostile.data["lab"] == "scara_motion"
     assert hostile.data["numbers"] == str(course.variant("scara_motion", "Ada Lovelace"))
 
 
-def test_oddities_are_reported(hostile):
+def test_anomalies_in_a_notebook_are_reported(hostile):
     remarks = "\n".join(hostile.data["remarks"])
     for said in (
         'scara_motion.2: the stored output says "holds"; judged again, it is "does not hold".',
@@ -125,7 +126,9 @@ def test_report_works_from_a_file(hostile, browser, tmp_path):
     awake(page)
     [formula] = page.locator("math mfrac").all()
     assert formula.bounding_box()["height"] > 15
-    assert "It is $\\nonsense$." in page.locator("main").inner_text(), "as it was typed"
+    assert "It is $\\nonsense$." in page.locator("main").inner_text(), (
+        "wanted the invalid formula as it was typed"
+    )
     head = page.locator(".rk-report")
     assert "Ada Lovelace" in head.inner_text() and "A hostile lab" in head.inner_text()
     player = page.locator("div.robokin-player", has=page.get_by_label("playback speed")).first
@@ -197,7 +200,7 @@ def test_report_is_only_a_little_larger_than_the_lab():
         ("ж" * 300, "ж" * 50),
     ],
 )
-def test_a_name_becomes_part_of_a_file_name(name, kept):
+def test_name_of_the_student_becomes_part_of_the_file_name(name, kept):
     assert portable(name) == kept
 
 
@@ -214,7 +217,7 @@ def test_other_files_are_not_overwritten(tmp_path, monkeypatch, capsys):
     page.unlink()
     assert (
         main(["report", str(lab), "--name", "Ada"]) == 0
-    )  # not one of our labs, so it has no exercises
+    )  # this is not one of our labs, so it has no exercises
     said = capsys.readouterr()
     assert "my_lab_Ada.html" in said.out and said.err == ""
     text = page.read_text(encoding="utf-8")

@@ -28,10 +28,16 @@ def test_cells_run_again_with_other_values(path):
 
 def test_reused_names_are_detected(tmp_path):
     path = _lab(tmp_path, "a = 1", "print(a + 1)", "a = 5", "def f():\n    return b", "b = 2")
-    assert rerun.faults(path) == (0, [], ["[2] again: '6' in place of '2'"])
+    assert rerun.faults(path) == (0, [], ["[2] printed '6' on a later run and '2' on the first"])
     assert rerun.faults(_lab(tmp_path, "a = 1", "print(a + 1)", "b = 5")) == (0, [], [])
     fault = rerun.faults(_lab(tmp_path, "a = 1", "print(a)", "del a\nc = 1"))[2][0]
     assert "NameError" in fault
+
+
+def test_a_loop_reads_no_variable_that_it_sets_first():
+    cell = rerun.Cell("for a, b in pairs:\n    c = a + d\n    e(b, c)\nfor f in f:\n    g += f")
+    assert cell.reads == {"pairs", "d", "e", "f", "g"}
+    assert cell.writes == {"a", "b", "c", "f", "g"}
 
 
 FIGURE = "from robokin.show import figure\nfig = figure({alt})\nfig.subplots().plot([0, a])\nfig"
@@ -44,8 +50,8 @@ def test_failing_values_and_hard_coded_numbers_are_detected(tmp_path):
 
     assert faults("a = 1  # try 2, 3", FIGURE.format(alt='f"Up to {a}, q1 and axis 2"')) == (2, [])
     count, [two, three] = faults("a = 1  # try 2, 3", FIGURE.format(alt='"Up to 1"'))
-    assert count == 2 and "a = 3: [2] has 'Up to 1' typed in: 'Up to 1'" in three
-    # this cell does not depend on the value, so its text need not change
+    assert count == 2 and "a = 3: [2] has the hard-coded text 'Up to 1' in 'Up to 1'" in three
+    # this cell does not depend on the value, so its text does not have to change
     assert faults("a = 1\nc = 1  # try 2", FIGURE.format(alt='"Up to 1"')) == (1, [])
     count, [fault] = faults("a = 1  # try 0, 5", "print(1 / a)", "b = 1")
     assert count == 2 and "a = 0: cell 2: ZeroDivisionError" in fault

@@ -1,4 +1,4 @@
-"""Each capability of the documents and each finding of the second reading is treated somewhere.
+"""Each capability of the documents and each finding of the second reading is covered somewhere.
 
 The tables at the end of the companions list the 97 capabilities (S0-01 to S4-11); the file
 data/second_reading.csv lists the findings (A1 to H12). Every target exists; every name that a row
@@ -30,7 +30,7 @@ def prose(path):
 
 
 def table(source):
-    """(row, what, where, names) for each line of a companion's table."""
+    """A tuple (row, what, where, names) for each line of a companion's table."""
     text = prose(COMPANIONS[f"00{source[1]}"])
     lines = re.findall(rf"^\| ({source}-\d\d) \|(.*)\|$", text, re.M)
     return [(row, *(part.strip() for part in rest.split(" | "))) for row, rest in lines]

@@ -34,7 +34,7 @@ START, VIA, GOAL = (
 
 
 def turned(a, b):
-    """The greatest difference between two rows of joint values, with angles modulo a turn."""
+    """The greatest difference between two rows of joint values, with angles modulo whole turns."""
     difference = a - b
     difference[:3] -= 2 * np.pi * np.round(difference[:3] / (2 * np.pi))
     return abs(difference).max()
@@ -69,7 +69,7 @@ def test_ik_contains_the_original_joint_values(shape):
     assert (np.sign(rows[..., 1]) == [1, -1]).all()
 
 
-def test_a_tilted_tool_is_out_of_reach():
+def test_pose_with_a_tilted_tool_is_out_of_reach():
     tilted = Transform(Quaternion.from_angle_axis(1 * deg, (1, 0, 0)), (0.3, 0, 0.1))
     assert np.isnan(SCARA.ik(tilted)).all()
     assert "tilted by 1.0°" in explain(SCARA, tilted, 0)
@@ -123,8 +123,10 @@ def test_the_angle_of_a_target_is_not_wrapped():
     assert VIA.as_transform().rotation.as_matrix()[0, 0] == pytest.approx(-1)
 
 
-def test_only_targets_determine_the_direction_of_half_a_turn():
-    """Errata S1-t: 0.01 degrees to either side of START decide the direction of rotation to VIA."""
+def test_half_a_turn_has_a_fixed_direction_for_targets_but_not_for_poses():
+    """Errata S1-t: for poses, 0.01 degrees to either side of START decide the direction of rotation
+    to VIA.
+    """
     middles = []
     for off in (-0.01 * deg, 0.01 * deg):
         near = ScaraPose(START.position, off)
@@ -177,7 +179,7 @@ def test_invalid_targets_are_refused():
         START.lerp(Transform(), 0.5)
 
 
-def test_explain_names_the_stroke_in_millimetres():
+def test_explain_states_the_stroke_in_millimetres():
     assert "joint 4 is at 220.2 mm, 40.2 mm past its limit of 180 mm" in explain(SCARA, VIA, 0)
     assert "100.0 mm beyond the stretched arm" in explain(SCARA, ScaraPose((0.55, 0, 0.1), 0.0), 0)
     assert "40.0 mm too near to axis 1" in explain(SCARA, ScaraPose((0.01, 0, 0.1), 0.0), 1)

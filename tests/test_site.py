@@ -92,7 +92,7 @@ class Parsed(HTMLParser):
 
 @pytest.fixture(scope="session")
 def parsed(site):
-    """Every page, parsed: name -> page."""
+    """Every page, parsed, by name."""
     return {
         path.relative_to(site).with_suffix("").as_posix(): Parsed(path.read_text(encoding="utf-8"))
         for path in site.rglob("*.html")
@@ -119,7 +119,7 @@ def test_all_links_resolve(site, parsed):
     assert wrong == []
 
 
-def test_nothing_is_loaded_from_elsewhere(site, parsed):
+def test_pages_load_nothing_from_other_hosts(site, parsed):
     for name, page in parsed.items():
         for address in page.loads:
             parts = urlsplit(address)
@@ -278,7 +278,7 @@ def test_arm_can_be_dragged(page, address, lab):
     page.mouse.up()
     page.evaluate(NEXT_FRAME)
     moved = [i for i, one in enumerate(players) if _seen(one) != before[i]]
-    assert len(moved) == 1, "the arm that is dragged moves, and no other"
+    assert len(moved) == 1, "only the arm that is dragged should move"
     for question in page.locator(".rk-ask").all()[:1]:
         _opens(question)
     assert page.outside == [] and page.errors == []
@@ -410,7 +410,7 @@ def test_newer_site_replaces_an_older_one(tmp_path):
 
 
 @pytest.mark.parametrize("stop", range(8))
-def test_next_build_completes_an_interrupted_site(tmp_path, monkeypatch, stop):
+def test_next_build_completes_an_interrupted_build(tmp_path, monkeypatch, stop):
     older = laid(tmp_path / "older", index_html="1", gone_html="1")
     newer = laid(tmp_path / "newer", index_html="2", new_html="2", newest_html="2")
     folder = tmp_path / "site"
@@ -490,5 +490,5 @@ def test_unreadable_formulas_and_broken_links_are_reported(tmp_path):
     assert re.search(r"index\.ipynb.*nonsense", said) and re.search(r"other.*nowhere", said)
     assert back not in said and str(tmp_path) not in said
     page = Parsed((tmp_path / "made" / "index.html").read_text(encoding="utf-8"))
-    assert back in page.ids, "the same anchor as in JupyterLab"
+    assert back in page.ids, "wanted the same anchor as in JupyterLab"
     assert "here" in page.text and "nonsense" not in page.text

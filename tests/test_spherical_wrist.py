@@ -1,5 +1,5 @@
-"""The inverse kinematics of every arm in the catalogue: no wrong row, no missing row, every row in
-its place.
+"""The inverse kinematics of every arm in the catalogue: no row is wrong, no row is missing, and
+every row is in its place.
 """
 
 import dataclasses
@@ -54,8 +54,8 @@ def solved(arm, T, rows):
 
 
 def expected(machine, T):
-    """Which rows must exist, as booleans (..., 8) found from distances alone, and the distance of
-    each row from the border of existence.
+    """Which rows must exist, as booleans (..., 8) found from distances alone, and how far the pose
+    is from the limit at which each row stops existing.
     """
     w = machine.wrist
     centre = T.translation - w["tool"] * T.rotation.as_matrix()[..., 2]
@@ -184,12 +184,12 @@ def test_rows_at_wrist_singular_poses_are_correct(machine, bend):
 
 
 @six
-def test_home_has_all_its_rows(machine):
+def test_home_pose_has_all_its_rows(machine):
     arm = machine.arm
     T = arm.fk(np.zeros(6))
     rows = arm.ik(T)
     exists = solved(arm, T, rows)
-    # at home the ITMO6R is stretched, which is tested below
+    # in its home posture the ITMO6R is fully extended, which is tested below
     assert (exists == expected(machine, T)[0]).all() or arm is ITMO6R
     assert abs(rows[exists]).max(-1).min() < 1e-7
 
@@ -202,7 +202,7 @@ def test_the_irb140_has_eight_rows_at_home_seven_of_them_different():
 
 
 def stretched(machine, count, rng, folded=False):
-    """Postures with the forearm in line with the upper arm, or folded back onto it."""
+    """Postures in which the forearm is in line with the upper arm or folded back onto it."""
     q = random_joints(machine.arm, rng, (count,))
     line = {"IRB-140": np.pi / 2, "PUMA 560": -np.arctan2(0.4318, 0.0203), "DH arm (004)": 0.0}[
         machine.arm.name
@@ -214,8 +214,8 @@ def stretched(machine, count, rng, folded=False):
 @six
 @pytest.mark.parametrize("folded", [False, True])
 def test_stretched_and_folded_postures_are_reachable(machine, folded):
-    """A cosine that rounding makes larger than 1 counts as 1. The two elbow rows coincide, and both
-    exist.
+    """A cosine that is larger than 1 because of rounding counts as 1. The two elbow rows coincide,
+    and both exist.
     """
     arm = machine.arm
     if arm is IRB140:
@@ -235,8 +235,8 @@ def test_stretched_and_folded_postures_are_reachable(machine, folded):
 
 @six
 def test_pose_slightly_beyond_the_stretched_arm_is_out_of_reach(machine):
-    """A pose 1e-9 of the reach beyond the border is out of reach, and one 1e-9 inside it is within
-    reach.
+    """A pose is out of reach if it is 1e-9 of the reach beyond the limit, and within reach if it is
+    1e-9 of the reach inside the limit.
     """
     arm, w = machine.arm, machine.wrist
     q = stretched(machine, 200, np.random.default_rng(10), folded=arm is IRB140)
@@ -255,7 +255,7 @@ def test_pose_slightly_beyond_the_stretched_arm_is_out_of_reach(machine):
         assert (exists[np.arange(200), own] == there).all()
 
 
-def test_below_148_mm_the_printed_inverse_is_wrong_and_ours_is_right():
+def test_printed_inverse_is_wrong_within_148_mm_of_the_shoulder_and_ours_is_correct():
     """Errata S1-c: the printed arcsine loses the obtuse shoulder angle exactly where d < sqrt(l3^2
     - l2^2) = 147.986 mm.
     """
@@ -263,7 +263,7 @@ def test_below_148_mm_the_printed_inverse_is_wrong_and_ours_is_right():
     assert abs(edge / mm - 147.986485869) < 1e-9
     rng = np.random.default_rng(11)
     q = random_joints(IRB140, rng, (20_000,))
-    q[:, 2] = np.pi / 2 + rng.uniform(-0.6, 0.6, 20_000)  # the forearm folded back
+    q[:, 2] = np.pi / 2 + rng.uniform(-0.6, 0.6, 20_000)  # the forearm is folded back
     centre = (IRB140.frames(q)[:, 4]).translation
     rho = np.hypot(centre[:, 0], centre[:, 1])
     front = np.where(centre[:, 0] * np.cos(q[:, 0]) + centre[:, 1] * np.sin(q[:, 0]) > 0, 1, -1)
@@ -310,8 +310,8 @@ def test_joint_1_is_free_at_shoulder_singular_poses(machine):
 
 
 def test_the_pumas_front_and_back_rows_coincide_at_distance_d3_from_axis_1():
-    """The PUMA's wrist centre cannot come nearer to axis 1 than d3; at that distance front and back
-    coincide, and the row is repeated.
+    """The PUMA's wrist centre cannot come nearer to axis 1 than d3; at that distance the front and
+    back rows coincide.
     """
     rng = np.random.default_rng(13)
     d3 = 0.15005
@@ -386,7 +386,9 @@ def test_negative_zero_in_a_pose_gives_finite_rows(machine):
 
 
 def compare(arm, case, unit=1.0):
-    """Check one reference case: exactly its rows exist, in the places given by their flags."""
+    """Check a reference case: exactly the rows of the case exist, in the places given by their
+    flags.
+    """
     T = transform(case["T"], unit)
     rows = arm.ik(T)
     exists = solved(arm, T, rows)
@@ -467,7 +469,7 @@ def random_arm(rng):
     sign = rng.choice([-1.0, 1.0], 6)
     lateral = rng.choice([0.0, 0.12, -0.2])
     heel, bow = rng.choice([0.0, 0.05, -0.04], 2)
-    # axis 4 at home
+    # axis 4 in the home posture
     along = np.array([np.cos(tilt := rng.choice([0.0, np.pi / 2, 0.4])), 0, -np.sin(tilt)])
     fore = np.array([bow, 0, 0.05]) + 0.3 * along
     split = rng.uniform(-0.1, 0.1)
@@ -489,7 +491,7 @@ def random_arm(rng):
 
 @pytest.mark.parametrize("seed", range(40))
 def test_every_suitable_chain_is_inverted(seed):
-    """Signs, offsets, a bent forearm, a tilted wrist and the tool differ from arm to arm."""
+    """The arms differ in signs, offsets, bend of the forearm, tilt of the wrist and tool."""
     rng = np.random.default_rng(seed)
     arm = random_arm(rng)
     q = rng.uniform(-np.pi, np.pi, (200, 6))
@@ -525,7 +527,9 @@ def _unit(v):
 
 
 def test_each_singularity_depends_on_its_own_joints():
-    """The wrist depends on joint 5 alone, the elbow on joint 3, the shoulder on joints 2 and 3."""
+    """The wrist singularity depends on joint 5 alone, that of the elbow on joint 3, and that of the
+    shoulder on joints 2 and 3.
+    """
     stretched = -90 * deg  # the forearm of the IRB-140 points straight up
     for q, wanted in (
         ([0.3, 0.2, 0.4, 0.5, 0.0, 0.7], {"wrist"}),

@@ -56,7 +56,7 @@ def moves():
     for points in (B, C):
         yield "straight", straight(ARM, *points, PER_DEGREE)
     rng = np.random.default_rng(9)
-    for _ in range(20):  # above the hole around joint 2
+    for _ in range(20):  # the points are above the hole around joint 2
         start, goal = rng.uniform((-1.1, -1.1, 0.5), (1.1, 1.1, 1.2), (2, 3))
         yield "straight", straight(ARM, start, goal, PER_DEGREE)
 
@@ -81,7 +81,7 @@ def test_rounding_errors_do_not_add_up_over_10_000_moves():
     assert abs(np.cumsum(pulses, axis=0) - exact[1:]).max() <= 1
     there_and_back = np.tile([[0.0], [1 / 3 * deg]], (5000, 1))
     assert np.diff(counts(there_and_back, 1.3), axis=0).sum() == 0
-    # each move is 0.37 pulses and, taken alone, rounds to 0
+    # each move is 0.37 pulses, which alone would round to 0
     steps = np.arange(10_001)[:, None] * 0.037 * deg
     assert np.diff(counts(steps, 10.0), axis=0).sum() == 3700
 
@@ -220,7 +220,7 @@ def test_unsynchronised_motors_stop_one_after_another(start, goal):
 
 
 @pytest.mark.parametrize("points", [B, C])
-def test_only_the_straight_move_keeps_to_the_line(points):
+def test_only_the_straight_move_stays_on_the_line(points):
     n = counts(station_postures(ARM, points), PER_DEGREE)
     b = straight(ARM, *points, PER_DEGREE)
     a, d = unsynchronised(*n), synchronised(*n)
@@ -236,7 +236,7 @@ def test_only_the_straight_move_keeps_to_the_line(points):
         assert np.linalg.norm(path[-1] - points[1]) < 2e-3
     step = 3 * 0.5 * (1 / PER_DEGREE).max() * deg * 2.2  # half a pulse of all motors, at full reach
     assert off["b"] < step < min(off["a"], off["d"]) / 5
-    assert b.duration >= d.duration - 1e-12  # no move within the limit is faster than d
+    assert b.duration >= d.duration - 1e-12  # no move within the frequency limit is faster than d
 
 
 def test_motors_reverse_in_move_c_but_not_in_move_b():
@@ -345,7 +345,7 @@ def test_too_many_pulses_are_refused():
     assert len(Move(t[:-1], t[:-1, None]).pulses()[0][0]) == 100_000
 
 
-def test_wrong_arguments_are_refused():
+def test_invalid_arguments_are_refused():
     table, nan = phases("wave", "bipolar"), np.nan
     for call, complaint in (
         (lambda: synchronised([0, 0], [1, 2, 3]), "one position for each motor"),
@@ -384,8 +384,8 @@ def test_wrong_arguments_are_refused():
         (lambda: Stepper(windings=2), "windings: wanted"),
         (lambda: Stepper(inertia=0), "inertia: wanted one positive number"),
         (lambda: Stepper(rise=-1e-3), "rise: wanted a number that is not negative"),
-        (lambda: Stepper().run([2, 1], [1, 1]), "times and signs: wanted times .* not decrease"),
-        (lambda: Stepper().run([-1], [1]), "times and signs: wanted times .* from 0 on"),
+        (lambda: Stepper().run([2, 1], [1, 1]), "times and signs: .* never decreasing"),
+        (lambda: Stepper().run([-1], [1]), "times and signs: wanted times .* at least 0"),
         (lambda: Stepper().run([1, 2], [1]), "as many signs"),
         (lambda: Stepper().run([1], [0.5]), r"\+1 and -1"),
         (lambda: Stepper().run([1e4], [1]), "times: wanted a run of at most 100000 steps"),
@@ -417,7 +417,7 @@ def test_wrong_arguments_are_refused():
 
 
 def printed(text):
-    """A table of the document: True where it has a +."""
+    """A table of the document: True where it contains a +."""
     return np.array([[mark == "+" for mark in line] for line in text.split()])
 
 
@@ -490,8 +490,8 @@ STARTS = Stepper()  # the motor of table 1
 
 
 def places(motor):
-    """The direction in which each winding pulls: evenly spread around the ring, or around half of
-    it for bipolar currents.
+    """The direction in which each winding pulls: evenly distributed around the circle, or around
+    half of it for bipolar currents.
     """
     whole_turn = 180 if motor.motor == "bipolar" else 360
     return np.arange(motor.windings) * whole_turn / motor.windings * deg
@@ -531,7 +531,7 @@ def test_the_step_follows_from_windings_poles_and_teeth(motor):
         assert step < 10 or motor.windings == 3
 
 
-def test_steps_of_passive_rotors_are_in_the_documents_range():
+def test_steps_of_passive_rotors_are_in_the_range_stated_in_the_document():
     steps = [Stepper("passive", windings=n, drive=d).step / deg for n in (4, 5, 6) for d in DRIVES]
     assert min(steps) >= 1 and max(steps) <= 9 + 1e-9
 
@@ -566,7 +566,7 @@ def test_motor_moves_exactly_up_to_its_starting_torque(motor):
 
 @pytest.mark.parametrize("count", [2, 4, 6])
 def test_a_rotor_swings_like_a_pendulum(count):
-    # Half steps turn the field by 45, 22.5 and 15 degrees. The period of a pendulum is known for
+    # Half steps rotate the field by 45, 22.5 and 15 degrees. The period of a pendulum is known for
     # every amplitude A: 4 K(sin(A/2)) / omega, and 2 pi / omega for small A, where omega^2 = N T /
     # J.
     motor = Stepper("active", "bipolar", count, "half-step", damping=5e-7, rise=0.0)

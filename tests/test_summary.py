@@ -1,4 +1,4 @@
-"""`python -m robokin.course summary`: the teacher's table, compared with counts made here.
+"""`python -m robokin.course summary`: the teacher's table, compared with counts made by the tests.
 test_summary_attacked.py tests attacks by students.
 """
 
@@ -53,8 +53,8 @@ def drawn_report(name, slug, dice):
 
 @pytest.fixture(scope="module")
 def handed(tmp_path_factory):
-    """A folder with the reports of thirty students, one of them truncated, and other
-    files; the random data of each intact report.
+    """A folder with the reports of thirty students, one of which is truncated, and other files; and
+    the random data of each intact report.
     """
     folder, dice = tmp_path_factory.mktemp("handed"), random.Random(14)
     drawn = {name: drawn_report(name, SLUGS[k % 3], dice) for k, name in enumerate(NAMES)}
@@ -77,7 +77,7 @@ def question(name):
 
 
 def words(name, choice):
-    """The text of a guess, as on the lab's page."""
+    """The text of a guess as the lab's page shows it."""
     asked = course.predict(name)
     if choice is None or asked.unit:
         return choice or ""  # a typed answer has no letter
@@ -348,8 +348,8 @@ def test_table_has_all_students_and_labs(tmp_path):
 
 
 def test_the_same_page_in_several_folders_counts_once(tmp_path):
-    """The page in the folder with the student's name counts, or else the first one; the reasons for
-    the others name the page that counts.
+    """The page in the folder with the student's name counts, or else the first page; the reasons
+    for leaving out the others name the page that counts.
     """
     for folder in ("Bob", "Ada_123_file/lab", "Adam", "Zoë"):
         put(tmp_path / folder / "lab.html", report_of("Ada"))

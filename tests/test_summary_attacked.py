@@ -1,5 +1,5 @@
-"""Whatever a student puts into a report, a name or a folder, the teacher's table accepts it or
-reports it with a reason; neither a browser nor a spreadsheet runs it.
+"""Whatever a student puts into a report, a name or a folder, the summary accepts it or reports it
+with a reason, and neither a browser nor a spreadsheet executes it.
 """
 
 import csv
@@ -19,8 +19,8 @@ from robokin.course import summary, summary_pages
 from robokin.course.__main__ import main
 from robokin.course.reported import report_data
 
-# value handed in -> its text in a cell (None: the value itself). SERVER stands for the address of a
-# server that must never get a request.
+# For each value that is handed in: its text in a cell (None if it is the value itself). SERVER
+# stands for the address of a server that must never receive a request.
 HOSTILE = {
     "<script>window.ran = 1</script>": None,
     "</script><script>fetch('SERVER')</script>": None,
@@ -61,7 +61,7 @@ HOSTILE = {
     "half \ud83d of a pair": r"half \ud83d of a pair",
     "tag \U000e0041": r"tag \U000e0041",
     "z\u0335\u0321\u0300" * 20: None,
-    "\u0645\u06cc\u200c\u062e\u0648\u0627\u0647\u0645": None,  # needs the zero-width non-joiner
+    "\u0645\u06cc\u200c\u062e\u0648\u0627\u0647\u0645": None,  # needs a zero-width non-joiner
     "../../summary": None,
     "CON": None,
 }
@@ -85,7 +85,7 @@ SEEN = """() => {
 
 @pytest.fixture
 def server():
-    """The address of a server, and the list of the requests it got."""
+    """The address of a server, and the list of the requests that it received."""
     asked = []
 
     class Handler(BaseHTTPRequestHandler):
@@ -109,7 +109,7 @@ def server():
 
 
 def attacked(folder, values):
-    """A report for each value, with the value in all its texts and in its file name."""
+    """Write a report for each value, with the value in all text fields and in the file name."""
     for k, value in enumerate(values):
         data = report_of(f"{k:02} {value}", remarks=[value, value])
         data |= dict.fromkeys(("title", "file", "robokin", "numbers"), value)
@@ -123,7 +123,7 @@ def attacked(folder, values):
         put(folder / str(k) / f"_{name.decode(errors='ignore')}.html", data)
 
 
-def test_student_text_never_runs(browser, server, tmp_path):
+def test_text_of_students_is_never_executed(browser, server, tmp_path):
     address, asked = server
     values = {
         value.replace("SERVER", address): (shown or value).replace("SERVER", address)
@@ -163,7 +163,7 @@ def test_student_text_never_runs(browser, server, tmp_path):
         assert [text.replace("`", "") for text in found["remarks"]] == [shown] * 2
         assert found["colours"] == [red] and not found["odd"] and not found["ran"]
     assert all(url.startswith("file:") for url in requests) and asked == [] == said
-    # the second line of defence: injected HTML sends no request and does not run
+    # the second line of defence: injected HTML sends no requests, and its scripts do not run
     view.goto((tmp_path / "summary.html").as_uri())
     hole = f"<img src='{address}/hole.png' onerror='window.ran=1'><link rel=stylesheet href='"
     hole += f"{address}/hole.css'><style>.not {{ color: green }}</style>"
@@ -178,7 +178,7 @@ def test_student_text_never_runs(browser, server, tmp_path):
     until = time.monotonic() + 20
     while len(asked) < 2 and time.monotonic() < until:
         view.wait_for_timeout(50)
-    assert sorted(asked) == ["/hole.css", "/hole.png"], "this test would not notice a request"
+    assert sorted(asked) == ["/hole.css", "/hole.png"], "this test would not detect a request"
     context.close()
 
 
@@ -215,7 +215,7 @@ def one(data, what, **changes):
 GOOD = report_of("Ada")
 TEXT = json.dumps(GOOD)
 NEVER = "irb140_motion." + "9" * 5000
-BROKEN = {  # file name -> (its content, a part of the reason)
+BROKEN = {  # for each file name: the content and a part of the reason
     "empty.html": ("", "not a report"),
     "page.html": ("<p>Hello</p>", "not a report"),
     "utf16.html": (page(GOOD).encode("utf-16"), "not a report"),
@@ -270,7 +270,7 @@ LONE = "J\udcfcrgen.html"  # its bytes are not UTF-8
 
 
 @pytest.mark.skipif(os.name == "nt", reason="byte names, links and pipes need Unix")
-def test_bad_file_does_not_stop_the_others(tmp_path, monkeypatch, capsys):
+def test_invalid_files_do_not_affect_the_others(tmp_path, monkeypatch, capsys):
     monkeypatch.setattr(summary, "LARGE", 500_000)
     names = [f"Student {k}" for k in range(27)] + ["half \ud83d", "a\nb", "Юрий"]
     for k, name in enumerate(names):
@@ -328,7 +328,7 @@ def test_unreadable_folder_is_reported(tmp_path):
     assert left.file == "closed" and "cannot be read" in left.reason and left.wrong
 
 
-def test_a_long_text_is_cut_and_a_long_page_is_read_quickly():
+def test_long_texts_are_shortened_and_long_pages_are_read_quickly():
     long = "x" * 30_000
     data = report_of("Ada", title=long, numbers=long, remarks=[long])
     for each in data["exercises"]:

@@ -23,7 +23,7 @@ NOW = scenes()
 
 
 def today(scene):
-    """A scene of commit 11a2279 with today's keys."""
+    """A scene of commit 11a2279, converted to the current keys."""
     kept = {key: scene[key] for key in ("size", "flat", "grid", "seen", "floor", "view")}
     things = [
         {"kind": "target", "name": old["name"], "pose": old.get("way", old.get("pose"))}
@@ -205,9 +205,9 @@ RED = """() => {
 }"""
 
 
-def test_new_kind_takes_two_files_and_one_entry(tmp_path, browser):
-    """Follow the recipe in CONTRIBUTING in a copy of robokin; check types, formatting, still, film
-    and page.
+def test_new_kind_of_thing_needs_only_two_files_and_one_entry(tmp_path, browser):
+    """The test follows the instructions in CONTRIBUTING in a copy of robokin, and checks types, the
+    still picture, the film and the page.
     """
     for name in ("robokin", "tests"):
         ignore = shutil.ignore_patterns("__pycache__", "*.ipynb", "benchmarks", "course")

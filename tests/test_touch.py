@@ -1,5 +1,5 @@
-"""Hands on a narrow screen and on a touch screen: sliders, handles and the size of what is touched,
-in a real browser with real touch events.
+"""Narrow screens and touch screens: sliders, handles and the size of controls, in a real browser
+with real touch events.
 """
 
 from dataclasses import replace
@@ -9,6 +9,7 @@ import pytest
 import test_explorers
 import test_live
 import test_predictions
+import test_singularity_explorer
 import test_tour_explorer
 from test_browser import NEXT_FRAME
 from test_explorers import GOAL, IRB140, LOADER, SCARA, START, VIA
@@ -17,10 +18,13 @@ from robokin import three_lever
 from robokin.course.predictions import Asked
 from robokin.show import (
     animate,
+    elbow_explorer,
     joint_explorer,
     motion_explorer,
     motor_explorer,
+    movement_explorer,
     plan_explorer,
+    rotation_explorer,
     target_explorer,
     tour_explorer,
 )
@@ -45,18 +49,23 @@ EXPLORERS = {
     "motion": lambda: motion_explorer(IRB140, START, VIA, GOAL),
 }
 VIEWS = EXPLORERS | {
+    "corner": lambda: motion_explorer(IRB140, START, VIA, GOAL, close_up=True),
     "player": player,
-    "levers": lambda: target_explorer(three_lever(0.3)),
+    "zone": lambda: target_explorer(SCARA, zone=True),
+    "levers": lambda: movement_explorer(three_lever(0.3), [1.5, 1.5, 2], (0.495, 0.315)),
+    "elbow": lambda: elbow_explorer(IRB140),
     "motor": motor_explorer,
     "plan": lambda: plan_explorer(test_live.ARM, test_live.START, (1.9, 0.3), (1.2, 1.3)),
     "tour": lambda: tour_explorer(test_tour_explorer.CIRCLE),
+    "rotation": lambda: rotation_explorer(1.2, (0.6, 0, 0.8), (0.1, 0, 0)),
+    "singularity": test_singularity_explorer.view,
     "question": question,
 }
 each_view = pytest.mark.parametrize("kind", VIEWS)
 
 
 class Finger:
-    """A finger on a page, which sends what a touch screen sends."""
+    """A finger on a page, which sends the events of a touch screen."""
 
     def __init__(self, page):
         self.page, self.session = page, page.context.new_cdp_session(page)
@@ -97,7 +106,7 @@ def answered(page):
 
 # --- Sliders --------------------------------------------------------------------------------------
 
-# Makes room to scroll and records the values that every slider reports.
+# Adds space for scrolling, and records the values that the sliders report.
 LISTEN = """() => {
   document.body.style.padding = "1000px 0";
   window.told = [];
@@ -106,7 +115,7 @@ LISTEN = """() => {
 
 
 def sliders(page):
-    """The sliders that can be moved: those of a view without its kernel cannot."""
+    """The sliders that can be moved; the sliders of a view without its kernel cannot."""
     page.evaluate(LISTEN)
     return [
         slider
@@ -127,14 +136,16 @@ REST = """async e => {
 
 
 def middle(slider, share=0.5):
-    """A place on a slider, which is scrolled to the middle of the screen first."""
+    """A place on a slider, after scrolling the slider to the middle of the screen."""
     slider.evaluate(REST)
     box = slider.bounding_box()
     return box["x"] + share * box["width"], box["y"] + box["height"] / 2
 
 
 @each_view
-def test_swipe_that_begins_on_a_slider_scrolls_and_a_sideways_drag_moves_it(opened, phone, kind):
+def test_vertical_swipe_on_a_slider_scrolls_the_page_and_a_sideways_drag_moves_the_slider(
+    opened, phone, kind
+):
     page = opened(VIEWS[kind](), within=phone).page
     answered(page)
     finger, found = Finger(page), sliders(page)
@@ -176,13 +187,15 @@ def test_finger_moves_a_position_in_fine_steps(opened, phone):
             x, y = middle(slider)
             finger.swipe(x, y, -60, 0, 60)
             told = np.array(shown.page.evaluate("told"))
-            assert len(told) > 20, "a drag has gaps"
+            assert len(told) > 20, "the drag reports too few values"
             assert 0 < np.ptp(told) <= 5 * unit * 60, name
-            assert abs(np.diff(told)).max() <= 5.001 * unit, "more than 5 mm a pixel"
+            assert abs(np.diff(told)).max() <= 5.001 * unit, (
+                "the value changes by more than 5 mm per pixel"
+            )
 
 
-def test_tap_mouse_and_keyboard_move_a_slider_as_a_browser_does(opened, phone):
-    """The reference is a slider that the page does not know."""
+def test_tap_mouse_and_keyboard_move_a_slider_as_they_move_a_plain_one(opened, phone):
+    """The reference is a slider that the page's scripts do not control."""
     page = opened(joint_explorer(IRB140), within=phone).page
     ours = sliders(page)[0]
     page.evaluate(
@@ -234,7 +247,7 @@ def test_a_switch_chooses_the_handles_where_there_is_no_room_for_all(opened, pho
     every = set(wide.look().handles)
     assert len(every) > 5 and not wide.rk.locator(".rk-chooser").is_visible()
     shown = opened(EXPLORERS[kind](), IRB140, within=phone)
-    assert len(shown.look().handles) <= 4, "all stand, and cover each other"
+    assert len(shown.look().handles) <= 4, "too many handles are shown, so they overlap"
     names = shown.rk.locator(".rk-chooser button")
     seen = []
     for name in names.all():
@@ -247,7 +260,7 @@ def test_a_switch_chooses_the_handles_where_there_is_no_room_for_all(opened, pho
         shown.press(one, "ArrowRight")
         assert shown.look().code != before.code
         seen += handles
-    assert sorted(seen) == sorted(every), "a handle stands never, or twice"
+    assert sorted(seen) == sorted(every), "a handle is never shown, or shown twice"
     shown.page.set_viewport_size({"width": 1280, "height": 700})
     assert set(shown.look().handles) == every
 
@@ -311,7 +324,7 @@ SMALL = """() => [...document.querySelectorAll(
 
 @pytest.mark.parametrize("width, touch", [(390, True), (390, False), (1100, True)])
 @each_view
-def test_everything_that_is_touched_is_large_enough(browser, opened, kind, width, touch):
+def test_every_control_is_large_enough_for_touch(browser, opened, kind, width, touch):
     context = browser.new_context(viewport={"width": width, "height": 800}, has_touch=touch)
     context.add_init_script(test_explorers.WATCH)
     page = opened(VIEWS[kind](), within=context).page

@@ -56,7 +56,7 @@ def test_random_tasks_with_unreachable_points_are_answered(kind):
             assert all(inside[1 + i] for i in tour["order"])
             assert (np.diff([0, *tour["times"]]) >= 0).all()
             assert tour["t"][-1] <= T * (1 + 1e-6)
-            # the arm's path ends at the correct place, at the reported time
+            # the arm stops at the correct places at the reported times
             stops = spbu_arm(l1, l2).fk(tour["q"].astype(float)).translation
             step = 2 if kind == "collect" else 1
             assert np.allclose(stops[::step][0], p0, rtol=0, atol=1e-5)
@@ -69,7 +69,7 @@ def test_random_tasks_with_unreachable_points_are_answered(kind):
             assert told["best"]["times"][-1] <= told["greedy"]["times"][-1] + 1e-9
         lost += many > few
     assert tours > 30 and away > 100, "too few cases"
-    assert (lost > 3) == (kind == "visit"), "cheapest first is optimal, nearest first is not"
+    assert (lost > 3) == (kind == "visit"), "cheapest first is optimal, but nearest first is not"
 
 
 def test_tours_match_those_of_the_package_for_the_points_in_reach():
@@ -116,8 +116,12 @@ def test_tour_below_the_floor_is_reported_with_its_depth():
     low = asked(p0=[6, 0, 1], points=[[1.05, 0, 0.1]], T=60)
     wanted = "Between p0 and point 0 the tool dips under the floor, down to −1.02 m."
     assert answered(low, SPEEDS)["notes"] == [wanted]
-    assert answered(low | {"kind": "collect"}, SPEEDS)["notes"] == [wanted], "reported once"
-    assert answered(low | {"l1": 4.0, "l2": 5.0}, SPEEDS)["notes"] == [], "never for l1 <= l2"
+    assert answered(low | {"kind": "collect"}, SPEEDS)["notes"] == [wanted], (
+        "wanted a single report"
+    )
+    assert answered(low | {"l1": 4.0, "l2": 5.0}, SPEEDS)["notes"] == [], (
+        "the tool never dips for l1 <= l2"
+    )
 
 
 def test_stored_output_is_small_and_has_alt_text():
@@ -144,7 +148,9 @@ def test_explorer_opens_with_any_task(task):
     for value, least, most in zip((task.l1 / size, task.l2 / size, task.T), low, high, strict=True):
         assert least <= value <= most
     added = asked(l1=task.l1, l2=task.l2, p0=task.p0.tolist(), points=explorer.data["spare"])
-    assert sum(answered(added, SPEEDS)["reached"]) >= 10, "points that are added can be served"
+    assert sum(answered(added, SPEEDS)["reached"]) >= 10, (
+        "the points that can be added must be reachable"
+    )
     assert len(explorer.html) < 59_000
 
 
@@ -184,11 +190,11 @@ def handle(page, name):
     return page.locator(f"[data-handle='{name}']")
 
 
-def test_in_a_file_only_the_clock_works(browser, tmp_path):
+def test_only_the_clock_works_in_a_saved_page(browser, tmp_path):
     tour_explorer(CIRCLE).save(tmp_path / "tour.html")
     page = opened(browser, 390)
     page.goto(f"file://{tmp_path}/tour.html")
-    page.locator(".rk-asleep", has_text="Asleep").wait_for()
+    page.locator(".rk-asleep", has_text="Inactive").wait_for()
     assert page.evaluate("document.documentElement.scrollWidth") <= 390
     greedy, best = visit(CIRCLE), best_visit(CIRCLE)
     assert [row[1:] for row in cells(page)] == [
@@ -210,7 +216,9 @@ def test_in_a_file_only_the_clock_works(browser, tmp_path):
             served = {i for i, t in zip(result.order, result.times, strict=True) if t <= at}
             full = page.locator(".rk-served").evaluate_all("all => all.map(e => +e.dataset.handle)")
             assert set(full) == served
-    assert len(seen) == 7, "one at the start, two on the way to the lure, four along the best order"
+    assert len(seen) == 7, (
+        "wanted one picture at the start, two on the greedy tour and four on the best one"
+    )
     scrub.fill("0")
     page.locator(".rk-clock button").click()
     page.wait_for_function("+document.querySelector('.rk-clock input').value > 10")
@@ -238,7 +246,7 @@ tour_explorer(Task(5, 4, 7.5, [0.2] * 3, {FOUR[0].tolist()}, {FOUR[1:].tolist()}
     jupyter.run_all(page, "tours.ipynb")
     root = page.locator(".robokin-player[data-awake]")
     root.wait_for()
-    # keep using this view: one that JupyterLab recreates has the initial values
+    # use the same view throughout, since a view that JupyterLab recreates has the initial values
     root.evaluate("root => root.setAttribute('data-held', '')")
     root = page.locator(".robokin-player[data-awake][data-held]")
     before = len(page.complaints)  # JupyterLab's own errors
@@ -312,7 +320,7 @@ def test_late_answer_does_not_undo_changes(slow):
 
 @pytest.mark.parametrize("between", ["sleeps", "wakes twice"])
 def test_unanswered_questions_are_repeated(slow, between):
-    """Without the repetition, the tours would not match the points shown until the next move."""
+    """If they were not repeated, the tours would not match the points shown until the next move."""
     page, root, asked, answer = slow
     typed(page, "T, s, exactly", "29")
     (lost,) = asked()

@@ -83,7 +83,7 @@ def asked(name):
 
 
 def wrist_speeds(q_deg):
-    """The semi-axes of the ellipsoid of all flange velocities, computed from differences."""
+    """The semi-axes of the ellipsoid of all flange velocities, computed by finite differences."""
     q = np.array(q_deg) * deg
     steps = 1e-6 * np.eye(6)
     places = PUMA560.fk(np.stack([q + steps, q - steps])).translation
@@ -127,7 +127,7 @@ def test_speeds_grow_by_the_stated_factors_ten_times_closer_to_a_singularity():
 
     aligned = PUMA560.fk(np.array([0, 60, -170, 0, 0, 0]) * deg)
 
-    def wrist(m):  # computed from differences of the inverse
+    def wrist(m):  # computed by finite differences of the inverse
         u = np.linspace(-m, m, 2001)[:, None] * [0, 1e-3, 0]
         poses = Transform(aligned.rotation, aligned.translation + u + [0, 0, m * mm])
         q6 = np.unwrap(PUMA560.ik(poses)[:, 3, 5])
@@ -181,9 +181,15 @@ def test_rows_are_usable_where_the_first_view_and_its_answers_say():
 
 def test_first_come_rule_wins_at_the_stated_belt_speed():
     v, missed, total = said(
-        "08", "belt-row", r"at (\d+) mm/s it misses (\d+) of the (\d+), and \"first come.*all\."
+        "14",
+        "belt-curve-look",
+        r"at (\d+) mm/s it misses (\d+) of the (\d+), and \"first come.*all\.",
     )
-    assert v * mm in tries("08", "belt-work")
+    assert f"`{v:.0f} * mm`" in cells("14")["belt-curve-look"]
+    assert (
+        "v_belt = " in cells("14")["belt-work"]
+        and "uneven = spaced(200, GAP, 0.5)" in cells("14")["belt-work"]
+    )
     y = np.linspace(-400, 400, 161) * mm
     window = np.stack([0 * y + 600 * mm, y, 0 * y + 50 * mm], axis=-1)
     home = principal_postures(500 * mm, 400 * mm, np.array([150, -450, 250]) * mm)
@@ -197,7 +203,7 @@ def test_first_come_rule_wins_at_the_stated_belt_speed():
     assert taken == [total - missed, total]
 
 
-def test_nearest_first_loses_as_often_as_stated():
+def test_nearest_first_rule_loses_as_often_as_stated():
     question, options, right = asked("visit_and_collect.p6")
     first, last = map(int, re.findall(r"random_task\((\d+)\)", question))
     worse = 0
@@ -234,7 +240,8 @@ def test_nearest_first_loses_as_often_as_stated():
     )
     assert (count, total) == (worse, last - first + 1)
     assert 40 <= worse <= 99 and options[right].text == "In 40 to 99."
-    # the ends of Wilson's interval are 1.96 standard errors from the observed proportion
+    # by definition, the ends of Wilson's interval are 1.96 standard errors from the observed
+    # proportion
     p = np.array([low, high]) / 100
     away = abs(p - count / total) / np.sqrt(p * (1 - p) / total)
     assert away == pytest.approx([1.96] * 2, abs=0.2)
@@ -272,15 +279,15 @@ def test_noise_in_the_last_bit_does_not_change_the_race(monkeypatch):
         assert exact[noise] == pytest.approx(exact[None], abs=1e-6)
 
 
-def test_random_choice_turns_more_by_the_stated_factor():
+def test_random_choice_turns_the_joints_more_by_the_stated_factor():
     question, options, right = asked("three_levers.p10")
     places, _, seed = race_of_the_cell(100)
-    assert question.startswith("100 targets") and "evenly from 0° to 180°" in question
+    assert question.startswith("An arm visits 100 targets") and "evenly from 0° to 180°" in question
     stand = {name: np.array([60, 120, 120]) * deg for name in ("least", "dice", "equal")}
     turned, dice = dict.fromkeys(stand, 0.0), np.random.default_rng(seed)
 
     def least(place, before):
-        """The best posture in a sweep over the family and two finer ones near the best row."""
+        """The best posture of a sweep over the family and of two finer sweeps near the best row."""
         low, high = ARM.alpha_range(place)
         for count in (8001, 101, 101):
             alphas = np.linspace(low, high, count)
@@ -311,7 +318,10 @@ def test_random_choice_turns_more_by_the_stated_factor():
             stand[name] = q
     times = turned["dice"] / turned["least"]
     assert options[right].text == f"About {times:.1f} times as much."
-    told = re.search(r"takes (\d+)° a task.* add (\d+)°.* take (\d+) % more", options[right].reason)
+    text = " ".join([question, options[right].reason])
+    told = re.search(r"takes (\d+)° a task.* adds (\d+)°.* takes (\d+) % more", text)
+    wide = np.diff(ARM.alpha_range(places), axis=0).mean() / deg
+    assert f"the range of alpha is {wide:.0f}° wide on average" in question
     own = [turned["least"], turned["dice"] - turned["least"]]
     own.append(1e4 * (turned["equal"] / turned["least"] - 1))
     assert [round(x / 100) for x in own] == [int(x) for x in told.groups()]
@@ -326,7 +336,7 @@ def test_the_arm_with_arctan2_stays_within_its_limits_and_the_other_does_not():
     gamma_1 = np.arccos((RING**2 + 1 - KB**2) / (2 * RING)) / deg
     beta = np.arccos((KB**2 + 1 - RING**2) / (2 * KB)) + (np.pi - SAMPLE) / 2
     assert 0 < first + gamma_1 and last + gamma_1 < 180 and 0 < beta < np.pi
-    assert 90 + gamma_1 - 180 < 0, "the other one is past its limit behind 90°"
+    assert 90 + gamma_1 - 180 < 0, "the other arm exceeds its limit behind 90°"
     assert ARM.family((0, RING), SAMPLE)[:2] == pytest.approx([(90 + gamma_1) * deg, beta])
 
 
@@ -343,7 +353,7 @@ def lever_distance(q, H, lever=slice(None)):
 
 
 def least_distance(path, H, count=2001):
-    """The least distance on a whole path: the least sample of each segment, refined."""
+    """The smallest distance along a path: the minimum of each segment's samples, refined."""
     found = []
     for a, b in pairwise(np.asarray(path)):
         s = np.linspace(0, 1, count)
@@ -381,7 +391,9 @@ def test_distances_are_proven_with_the_stated_numbers_of_intervals():
     assert round(least_distance([a, b], H) / mm, 1) == truth
     assert {yes * mm, edge * mm, no * mm} <= set(tries("10", "whole-code"))
     room = lever_distance(a, H)
-    assert room > 1 and proven(a, a, H, 0.9 * room) == (True, 1), "a motion that does not move"
+    assert room > 1 and proven(a, a, H, 0.9 * room) == (True, 1), (
+        "this motion does not move the arm"
+    )
     assert proven(a, a, H, 1.1 * room) == (False, 1)
 
 
@@ -405,7 +417,7 @@ def test_movement_depends_on_the_required_distance_as_stated():
     ways = [*S.items()][:-1]
     down = [(a, b) for (a, x), (b, y) in pairwise(ways) if y < x]
     assert down == [(falls, to)]
-    assert lever_distance(Q0, H) < stays * mm, "less than that at the start"
+    assert lever_distance(Q0, H) < stays * mm, "at the start the distance is already smaller"
 
 
 def grid_wave(step, H):
@@ -443,7 +455,7 @@ def grid_wave(step, H):
     return int(steps[goal]), np.array(path)
 
 
-def test_the_wave_starts_and_ends_in_proven_postures(capsys):
+def test_wavefront_search_starts_and_ends_in_proven_postures(capsys):
     H = np.array([1.2, 1.3])
     question, _, _ = asked("obstacle_avoidance.p6")
     wanted, path = grid_wave(10, H)
@@ -483,7 +495,7 @@ def test_the_documents_test_finds_as_few_obstacles_as_stated():
     path = pytest.importorskip("matplotlib.path").Path
 
     def found_in(tasks):
-        """The numbers of points H inside the quadrilateral: all, and those that the test finds."""
+        """How many points H are inside the quadrilateral, and how many of these the test finds."""
         inside = found = 0
         for (A, K), (A1, K_1), H in tasks:
             if path([A, K, K_1, A1]).contains_point(H):
@@ -579,13 +591,13 @@ def test_rounded_positions_stay_within_half_a_pulse():
 
 
 def test_start_frequency_and_lost_steps_are_as_stated(capsys):
-    torque, inertia, damping = said("11", "missed-code", r"M, J, b = (\S+), (\S+), (\S+) #")
-    made = run("11", "opening-setup", "missed-code")
+    torque, inertia, damping = said("13", "missed-code", r"M, J, b = (\S+), (\S+), (\S+) #")
+    made = run("13", "opening", "setup", "missed-code")
     top = int(re.search(r"start frequency: (\d+) pulses/s", capsys.readouterr().out)[1])
     motor = made["motor"]
 
     def steps(tempo):
-        """The number of steps made, integrated pulse by pulse with SciPy."""
+        """The number of steps that the rotor makes, integrated pulse by pulse with SciPy."""
         state, times = [0.0, 0.0], [*(np.arange(1, 49) / tempo), 48 / tempo + 0.4]
         for k, (a, b) in enumerate(pairwise([0.0, *times])):
             pull = k * np.pi / 2
@@ -599,7 +611,12 @@ def test_start_frequency_and_lost_steps_are_as_stated(capsys):
         return round(state[0] / (np.pi / 2))
 
     assert steps(top) == 48 > steps(top + 1)
-    assert "motor_explorer(motor)" in cells("11")["missed-explorer"]
+    top_said, after, lost = said(
+        "13", "missed-look", r"At (\d+) pulses .* at (\d+) it loses (\d+)\."
+    )
+    assert (top_said, after, lost) == (top, top + 1, 48 - steps(top + 1))
+    assert "motor_explorer(motor)" in cells("13")["load-explorer"]
+    assert motor == made["Stepper"](rise=0), "the motor of the first view"
     assert repr(motor_explorer(motor)).endswith("44 steps lost.")
     _, options, _ = asked("motor_synchronisation.p10")
     assert f"loses {48 - steps(160)} of 48" in options[2].reason
@@ -611,9 +628,9 @@ def test_start_frequency_and_lost_steps_are_as_stated(capsys):
     assert min(lost - {0}) == few
 
 
-def test_lab_11_does_not_mention_missing_tables():
+def test_labs_on_motors_do_not_mention_missing_tables():
     question, _, _ = asked("motor_synchronisation.p10")
-    texts = [question, *cells("11").values()]
+    texts = [question, *cells("11").values(), *cells("13").values()]
     assert not [text for text in texts if re.search(r"\btable \d", text)]
 
 
@@ -648,7 +665,7 @@ def test_elbow_formula_is_exact_at_every_point_but_one_and_jumps_there():
     elbow = made["elbow_by_root"]
     for height in made["heights"]:
         left, right = (elbow(side * 1e-3, height, 1.0) for side in (-1, 1))
-        assert left[0] * right[0] < 0, "on different sides"
+        assert left[0] * right[0] < 0, "the elbows should be on different sides"
         with np.errstate(invalid="ignore"):
             assert np.isnan(elbow(np.float64(0), height, 1.0)[0])
     assert (made["tip_lines"][..., 0] != 0).all()
@@ -673,7 +690,7 @@ def test_the_table_near_zero_uses_the_formulas_of_the_lab():
         assert [f"{x:.6f}" for x in own] == [one, two]
 
 
-def test_rounding_on_the_rim_loses_the_stated_number_of_answers():
+def test_rounding_at_the_limit_of_reach_loses_the_stated_number_of_answers():
     made = generated()
     question, options, right = asked("two_link_code_generation.p8")
     count = int(re.search(r"We take (\d+) tips", question)[1])

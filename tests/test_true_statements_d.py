@@ -52,7 +52,7 @@ def test_correct_programs_compute_speeds_as_accurately_as_promised():
 # --- Lab 10 ---------------------------------------------------------------------------------------
 
 
-def test_the_15_degree_grid_has_a_path_that_the_wave_does_not_find():
+def test_the_15_degree_grid_has_a_path_that_the_wavefront_search_does_not_find():
     _, options, right = asked("obstacle_avoidance.p8")
     assert options[right].text.startswith("Nothing but that this wave found none")
     assert options[0].reason.startswith("This wave found none in steps of 15°")
@@ -66,7 +66,7 @@ def test_the_15_degree_grid_has_a_path_that_the_wave_does_not_find():
     curve = ARM.family(K1, np.linspace(*ARM.alpha_range(K1), 200))
     last = curve[abs(curve - way[-1] * deg).sum(axis=1).argmin()]
     assert least_distance([Q0, *(way * deg), last], H) >= DISTANCE
-    assert abs(last - way[-1] * deg).max() < 15 * deg, "less than a step of the grid"
+    assert abs(last - way[-1] * deg).max() < 15 * deg, "wanted less than a step of the grid"
     words = flat("10", "cube")
     assert "to a posture of the curve from the grid posture nearest to it" in words
 
@@ -82,7 +82,7 @@ def test_adding_samples_never_increases_the_least_distance_found():
         return lever_distance(path[0] + s * (path[1] - path[0]), H).min()
 
     assert found(7) >= found(13) >= found(25) >= found(49)
-    assert found(10) > found(9), "new places, and a larger distance"
+    assert found(10) > found(9), "with new places, the distance found can be larger"
 
 
 def test_five_of_the_six_plans_exist_and_fold_the_arm_as_stated():
@@ -158,7 +158,7 @@ def test_two_distances_locate_two_points_or_one_in_line_with_the_sensors():
         assert in_line[0] == pytest.approx(in_line[1])
 
 
-def test_paths_keep_the_distance_and_sampled_obstacles_lie_on_lever_ak():
+def test_paths_keep_their_clearance_and_sampled_obstacles_are_on_lever_ak():
     words = flat("10", "cube-look")
     assert "in steps of at most 5° between allowed postures" in words
     assert "proves every part" in words and "an obstacle on AK" in flat("10", "often-code")
@@ -218,7 +218,7 @@ def test_straight_line_takes_longer_if_the_motor_at_the_limit_changes():
     assert kinds == {True, False}
 
 
-def test_rule_that_looks_only_at_the_size_of_a_turn_fails_in_the_stated_range():
+def test_rule_that_considers_only_the_size_of_a_turn_fails_in_the_stated_range():
     text = flat("11", "turn-look")
     low, high = numbers(r"for \$-(\d+)° < d < -(\d+)°\$ the rule gives minus the right turn", text)
     for d in np.arange(-899.5, 0):
@@ -262,15 +262,13 @@ def test_lost_steps_with_and_without_a_ramp_are_as_stated():
         assert min(f for f, n in lost.items() if n) == at and not any(n % 4 for n in lost.values())
         behind = [n for f, n in lost.items() if f >= at]
         assert [min(behind), max(behind)] == [low, high]
-    text = flat("11", "short")
-    f, seconds = numbers(r"at (\d+) pulses/s a ramp of (\S+) s mends that for the motor", text)
-    assert (
-        motor.run(ramp(48, f, f, 0), ones).lost
-        > 0
-        == motor.run(ramp(48, 40, f, seconds), ones).lost
-    )
-    assert "(section 8 measures the second)" in flat("11", "pulses")
-    assert re.search(r"maximum start frequency: \d+ pulses/s", shown("11", "missed-code"))
+    text = flat("13", "title")
+    f, lost = numbers(r"At (\d+) pulses per second this motor loses (\d+) of 48 steps", text)
+    assert "With a ramp of a tenth of a second it loses none." in text
+    assert motor.run(ramp(48, f, f, 0), ones).lost == lost > 0
+    assert motor.run(ramp(48, 40, f, 0.1), ones).lost == 0
+    assert "([lab 13](13_rotor.ipynb) measures the second)" in flat("11", "pulses")
+    assert re.search(r"maximum start frequency: \d+ pulses/s", shown("13", "missed-code"))
 
 
 # --- Lab 12 ---------------------------------------------------------------------------------------
@@ -285,7 +283,7 @@ def test_elbows_are_exchanged_on_the_stated_side():
         program = exercise.steps.program(each)
         for x in (1.0, -1.0):
             elbow = program(np.zeros(2), np.array([x, 0.5]), 1, 0.8, 1)
-            if x * elbow[1] - 0.5 * elbow[0] > 0:  # the elbow is left of the line to the tip
+            if x * elbow[1] - 0.5 * elbow[0] > 0:  # the elbow is to the left of the line to the tip
                 sides.append("right" if x > 0 else "left")
     assert sides == ["right", "left"]
     assert [re.search(r"to its (\w+) the two", says)[1] for _, says, _ in said] == sides
@@ -320,7 +318,7 @@ def test_elbow_distances_link_ratio_and_lost_digits_are_as_stated():
     y2 = (y3 * d2 + np.sqrt(x3**2 * d2 * (4 - d2))) / (2 * d2)
     exact = -x3 * np.sqrt(3)  # the numerator, to first order
     lost = abs((d2 - 2 * y3 * y2) / exact - 1)
-    assert lost[1] < 1e-5 < lost[3], "in floating-point numbers"
+    assert lost[1] < 1e-5 < lost[3], "the numerator should lose digits in floating-point arithmetic"
     below = 1e-20
     y2 = (y3 + np.sqrt(below**2 * (4 - 1))) / 2
     assert below > 0 == y3**2 - 2 * y3 * y2, "the numerator is 0 and the denominator is not"

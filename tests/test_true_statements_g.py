@@ -1,5 +1,5 @@
 """Statements of labs 08 and 09 that a fourth reader refuted or doubted, recomputed with inverses,
-times, queues and races written here from the definitions in the labs.
+times, queues and races that are written in this file from the definitions in the labs.
 """
 
 import cmath
@@ -19,6 +19,7 @@ from test_true_statements_f import one_line, option, says
 
 from robokin import deg, dh_links, elbow_arm, spbu_arm
 from robokin.course import book, check, variant
+from robokin.show import conveyor_player
 
 TRAPS = book.find("visit_and_collect.3", "exercises")
 LEVERS = book.find("three_levers.1", "exercises")
@@ -61,7 +62,7 @@ def needs(q, other, speed):
     return max(abs(a - b) for a, b in zip(q, other, strict=True)) / speed
 
 
-def test_inverse_in_this_file_is_correct():
+def test_inverse_written_in_this_file_is_correct():
     for q in np.random.default_rng(1).uniform([-3, 0, -1.5], [3, 1.5, 0.9], (200, 3)):
         place = place_of(q)
         assert spbu_arm(5, 4).fk(q).translation == pytest.approx(place)
@@ -70,7 +71,7 @@ def test_inverse_in_this_file_is_correct():
 
 
 def bin_on_the_axis(order, places, home, speed=0.2):
-    """The time to bring the objects to a bin on axis 1, where joint 1 keeps its value."""
+    """The time to bring the objects to a bin on axis 1, where joint 1 does not have to move."""
     stand, spent = joints_of(home), 0.0
     for k in order:
         there = joints_of(places[k])
@@ -101,12 +102,12 @@ def test_visiting_in_order_of_angle_turns_joint_1_least():
     rising = tuple(np.argsort(angles).tolist())
     assert {o for o, t in took.items() if t < min(took.values()) + 1e-9} == {rising, rising[::-1]}
     assert round(took[rising], 2) == 38.16
-    # an earlier text was wrong: another order is quicker than going round in order
+    # an earlier text was wrong: a different order is faster than visiting the points in sequence
     assert round(took[0, 1, 2, 3], 2) == 53.87 and round(took[0, 3, 1, 2], 2) == 46.02
 
 
 def round_trip(legs, order, T):
-    """How many objects the arm brings home by T; index 0 of `legs` is home."""
+    """How many objects the arm brings home by the time T; index 0 of `legs` is home."""
     spent, here, count = 0.0, 0, 0
     for stop in order:
         spent, here = spent + legs[here][stop], stop
@@ -117,7 +118,7 @@ def round_trip(legs, order, T):
 
 
 def nearest(legs, cost):
-    """The order in which every next stop is the cheapest one."""
+    """The order in which each stop is the cheapest one that remains."""
     order, here = [], 0
     while rest := set(range(1, len(legs))) - set(order):
         here = min(rest, key=lambda stop: cost(here, stop))
@@ -146,7 +147,7 @@ def test_another_round_trip_beats_nearest_first_as_stated():
     orders = [*permutations(range(1, 5))]
     for rule in rules:
         assert round_trip(legs, nearest(legs, rule), T) == few == 1
-        # within the opening's T, neither rule brings any object home
+        # within the time T of the opening, neither rule brings any object home
         assert round_trip(legs, nearest(legs, rule), 7.5) == 0
     assert max(round_trip(legs, order, T) for order in orders) == many == 3
     assert max(round_trip(legs, order, 7.5) for order in orders) == 0
@@ -229,8 +230,8 @@ WAYS = np.array(belt_ways())
 
 
 def one_arm(arrivals, v):
-    """For an arm that always takes the object with which it is back soonest: the times when it is
-    back, and the arrivals that it misses.
+    """For an arm that always picks the object that lets it return soonest: the times of its
+    returns, and the arrivals that it misses.
     """
     left, free, backs = [*arrivals], 0.0, []
     delays = np.linspace(0, 0.8, 161) / v
@@ -264,7 +265,7 @@ def arms_needed(v, spread, seed):
 
 
 def test_belt_table_shows_one_stream_and_other_streams_need_one_more_arm():
-    words = flat("08", "belt-look")
+    words = flat("14", "belt-look")
     assert "at all six speeds. At spread 0.5 it is one arm too few at three of them, at" in words
     assert "at spread 1 at five. These are the streams of one order of the gaps, `seed=8`." in words
     assert (
@@ -284,25 +285,28 @@ def test_belt_table_shows_one_stream_and_other_streams_need_one_more_arm():
         assert (arms_needed(0.2, 1, seed), arms_needed(0.3, 1, seed)) == (4, 5)
 
 
-def test_belt_player_shows_the_streams_of_the_table():
-    assert "six seconds of the table's streams at 200 mm/s" in flat("08", "belt-look")
-    made = quietly("08", "opening", "setup", "chain-code", "belt-code", "belt-motion")
-    head = cells("08")["belt-player"].split("\nedge, side")[0]
-    exec(compile(head, "belt-player", "exec"), made)
-    clock = made["belt_clock"]
-    assert clock[-1] - clock[0] == 6 and made["v_row"] == 0.2
-    busy = []
-    for k, spread in enumerate(made["player_spreads"]):
+def test_belt_player_shows_the_streams_of_the_table(monkeypatch):
+    assert "six seconds from the middle of a stream of 200 objects, at 200 mm/s" in flat(
+        "14", "able"
+    )
+    assert "conveyor_player(v=0.2, spreads=[0, 0.5, 1])" in cells("14")["opening"]
+    # `animate` returns its arguments
+    monkeypatch.setattr("robokin.show.conveyor.animate", lambda *given, **named: (given, named))
+    (_, clock, _), named = conveyor_player(v=0.2, spreads=[0, 0.5, 1])
+    assert clock[-1] - clock[0] == 6 and 0 < clock[0] < 150 - 6  # 30 m of objects at 0.2 m/s
+    (brought,), busy = named["quantities"].values(), []
+    for k, spread in enumerate([0, 0.5, 1]):
         left = belt_stream(spread, 8) / 0.2
         for arm in range(3):
-            # the second and third arms are 1 m farther along the belt than the one before
+            # the second and third arms are each 1 m farther along the belt than the arm before them
             backs, left = one_arm(np.array(left) + (arm > 0) * 5.0, 0.2)
-            wanted = [sum(back <= now for back in backs) for now in clock]
-            assert made["in_bin"][arm][k].tolist() == wanted
+            wanted = [sum(clock[0] < back <= now for back in backs) for now in clock]
+            assert brought[arm][k].tolist() == wanted
+            assert named["readings"][f"arm {arm + 1}"][k].tolist() == wanted
         assert not left  # three arms are enough, as the table says
-        busy.append(wanted[-1] - wanted[0])
+        busy.append(wanted[-1])
     # arm 3 picks objects only at spreads 0.5 and 1
-    assert busy[0] == 0 and busy[1] > 0 and busy[2] > busy[1]
+    assert busy[0] == 0 and busy[1] > 0 and busy[2] > 0
 
 
 def test_changing_only_alpha_to_plus_90_mirrors_the_arm_in_the_floor():
@@ -326,7 +330,9 @@ def test_changing_only_alpha_to_plus_90_mirrors_the_arm_in_the_floor():
 
 
 def gripper(q, bend=-1, lengths=(1, 1, 1)):
-    """K as a complex number; the chain turns clockwise if bend is -1, counterclockwise if +1."""
+    """K as a complex number; the chain turns clockwise if `bend` is -1 and counterclockwise if it
+    is +1.
+    """
     place, way = 0j, cmath.exp(1j * q[0])
     for length, inner in zip(lengths, [*q[1:], math.pi], strict=True):
         place += length * way
@@ -347,7 +353,9 @@ def family(K, alpha, bend=-1):
 
 
 def least_from(K, before):
-    """The least sum of turns S and its posture, by a fine sweep and a search near its minimum."""
+    """The least sum of turns S and its posture, found by a fine sweep and a search near its
+    minimum.
+    """
     low = math.acos((5 - abs(K) ** 2) / 4)
 
     def turned(alpha):
@@ -365,7 +373,7 @@ def least_from(K, before):
     return best[0], family(K, best[1])
 
 
-def test_family_in_this_file_is_correct():
+def test_family_of_postures_written_in_this_file_is_correct():
     rng = np.random.default_rng(2)
     for _ in range(200):
         K = rng.uniform(1.1, 2.9) * cmath.exp(1j * rng.uniform(0, 2))
@@ -374,17 +382,19 @@ def test_family_in_this_file_is_correct():
             assert gripper(family(K, alpha, bend), bend) == pytest.approx(K)
 
 
-def test_random_choice_turns_less_as_often_as_stated_but_never_from_the_same_posture():
+def test_random_choice_turns_joints_less_as_often_as_stated_but_never_from_the_same_posture():
     found = option("three_levers.p10", "hardly more")
     reason = one_line(found.reason)
     assert (
-        "Chance evens out where it errs to both sides alike. From the posture in which the dice "
-        "arm stands, a throw never turns less than the least, and nearly always more" in reason
+        "Chance evens out if it errs to both sides alike. From the posture in which the second arm "
+        "is, a random posture never turns less than the least movement, and nearly always more"
+        in reason
     )
-    told = r"In (\d+) of these (\d+) tasks the dice arm happens to stand better .* turns less, but"
+    told = r"In (\d+) of these (\d+) tasks the second arm happens to .* and turns less, but"
     fewer, tasks = numbers(told, reason)
-    assert "one day of ten, on average, and loses time on the other nine" in one_line(found.second)
-    assert "In one task, begun in the same posture, no rule can undercut" in flat("09", "race-look")
+    assert "one day of ten, on average, and lose time on the other nine" in one_line(found.second)
+    law = "In one task, begun in the same posture, no rule can turn less than least movement"
+    assert law in flat("09", "race-look")
     drawn = np.random.default_rng(4).uniform(0, np.pi, (300, 3))
     places = [gripper(q) for q in drawn]
     places = [K for K in places if np.isfinite(ARM.alpha_range([K.real, K.imag])[0])][:100]
@@ -400,11 +410,13 @@ def test_random_choice_turns_less_as_often_as_stated_but_never_from_the_same_pos
         least, saver = least_from(K, saver)
         turns.append((thrown, least, could))
     thrown, least, could = np.array(turns).T / deg
-    # a throw never turns less than the least movement from the same posture, and nearly always more
+    # a random choice never turns the joints less than the least movement from the same posture, and
+    # nearly always more
     assert (thrown > could - 1e-4).all()
     assert (thrown > could + 0.1).sum() > 95
     assert abs(thrown - least).min() > 0.01 and (thrown < least).sum() == fewer == 14
-    # a throw can turn less than the other arm in a single task, but not in total
+    # in a single task, a random choice may turn the joints less than the other arm does, but not in
+    # total
     assert (least - thrown).max() == pytest.approx(65.9, abs=0.05)
     assert thrown.sum() > 1.4 * least.sum()
 
@@ -414,7 +426,7 @@ def width(KO):
     return 180 - math.degrees(math.acos((5 - KO**2) / 4))
 
 
-def test_the_narrower_range_follows_from_inverse_proportion():
+def test_width_of_the_narrower_range_follows_from_inverse_proportion():
     found = option("three_levers.p2", "in proportion")
     (said,) = numbers(r"^Narrower, (\S+)°: in inverse proportion to the distance\.$", found.text)
     assert said == round(width(1.5) * 1.5 / 2.8, 1)
@@ -426,18 +438,20 @@ def test_the_narrower_range_follows_from_inverse_proportion():
     (far,) = numbers(r"In inverse proportion the arm could still choose at (\S+) m, where", second)
     assert width(1.5) * 1.5 / far > 1 and far > 3
     falls = [(width(a) - width(b)) / (b - a) for a, b in pairwise([2.0, 2.5, 2.9, 2.99, 3.0])]
-    assert sorted(falls) == falls and falls[-1] > 10 * falls[0]  # a steeper and steeper fall
+    # the fall becomes steeper and steeper
+    assert sorted(falls) == falls and falls[-1] > 10 * falls[0]
 
 
 def test_recipe_for_the_other_bend_reaches_targets_behind_the_base():
     words = flat("09", "deeper-more")
     assert (
-        "Mirror K in the x axis, solve with `posture` of section 3, mirror back, and look at the "
-        r"limit of $\gamma$ only then: which targets behind the base does that arm serve?" in words
+        "Mirror K in the x axis, solve with `posture` of section 2, mirror back, and check the "
+        r"limit of $\gamma$ only then. Which targets behind the base does this arm serve?" in words
     )
-    made = quietly("09", "imports", "opening", "chain-code", "range-code", "angles-code")
+    assert "in every direction behind the base: at 1.2, 2.0 and 2.8 m we find postures" in words
+    made = quietly("09", "chain-explorer", "chain-code", "angles-code")
     mirrored = 2 * np.array([np.cos(150 * deg), -np.sin(150 * deg)])
-    assert np.isnan(ARM.alpha_range(mirrored)).all()  # the package's solvers find nothing
+    assert np.isnan(ARM.alpha_range(mirrored)).all()  # the package's solvers find no posture
     assert np.isnan(ARM.least(mirrored, np.array([60, 120, 120]) * deg)[1])
     shares = {}
     for phi in np.arange(92.5, 180, 5):
@@ -459,9 +473,9 @@ def test_recipe_for_the_other_bend_reaches_targets_behind_the_base():
 
 def test_arctan2_works_at_x_equal_to_0():
     words = flat("09", "atan-look")
-    assert "`arctan2` looks at both signs, and $x = 0$ is no trouble to it." in words
+    assert "`arctan2` looks at both signs, and $x = 0$ is no problem." in words
     assert "which knows the quadrant and serves $p_1 = 0$, too." in flat("000", "inverse")
-    made = quietly("09", "imports", "opening", "chain-code", "range-code", "angles-code")
+    made = quietly("09", "chain-explorer", "chain-code", "angles-code")
     assert math.atan2(2, 0) == math.pi / 2 and math.atan2(-2, 0) == -math.pi / 2
     assert gripper(made["posture"]((0.0, 2.0), 150 * deg)) == pytest.approx(2j)
     with pytest.raises(ZeroDivisionError):
@@ -471,7 +485,7 @@ def test_arctan2_works_at_x_equal_to_0():
 def test_clipped_arm_stretches_or_folds_and_does_not_reach_k():
     words = says("three_levers", "clipped where there is no triangle")
     assert words.endswith(
-        "Clipped, the arm stretches or folds, does not reach K, and nobody is told."
+        "With clipped cosines the arm stretches or folds, does not reach K, and nobody is told."
     )
     condition, space = "abs(a - KB) <= KO <= a + KB", {}
     assert LEVERS.solution.count(condition) == 1

@@ -1,5 +1,5 @@
-"""Three levers on a turning base: points in space compared with a chain of complex numbers in a
-plane that is rotated here.
+"""Three levers on a turning base: points in space, compared with a chain of complex numbers in a
+plane that the tests rotate.
 """
 
 import numpy as np
@@ -55,7 +55,9 @@ def test_least_movement_reaches_the_point_within_the_limits(arm, shape):
 
 @arms
 def test_no_other_posture_moves_less(arm):
-    """Brute force over both base angles and 2001 alphas; each base angle is sometimes better."""
+    """Brute force over both base angles and 2001 values of alpha; each base angle is sometimes
+    better.
+    """
     points, before = tip(arm, postures(arm, (300,))), postures(arm, (300,), seed=2)
     plane = arm.geometry.plane
     q, S = arm.least(points, before)
@@ -87,7 +89,7 @@ def test_base_does_not_turn_for_points_on_the_axis():
     assert np.isnan(arm.least((0, 0, 2.7), before)[0]).all()
 
 
-def test_turning_arm_can_be_explored_and_refuses_wrong_arguments():
+def test_turning_arm_works_in_an_explorer_and_refuses_invalid_arguments():
     arm = ARMS["equal"]
     assert "on a turning base" in joint_explorer(arm, [0.5, 1.0, 2.0, 2.0]).data["title"]
     with pytest.raises(TypeError, match="arm: wanted a ThreeLeverArm, got"):

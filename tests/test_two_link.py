@@ -1,5 +1,5 @@
 """Two links in the plane (source 002): the reference cases, the document's formula and errata S2,
-and the code that a computer algebra system writes from the general solution.
+and the code that a computer algebra system generates from the general solution.
 """
 
 import ctypes
@@ -37,7 +37,7 @@ def test_ik_matches_the_reference_cases(case):
         assert np.isnan(rows).all() and "does not exist" in explain(arm, case["target"], 0)
         return
     np.testing.assert_allclose(arm.fk(rows).translation[:, :2], [case["target"]] * 2, atol=1e-12)
-    if not case["solutions"]:  # equal links, and the tip is on the base: q1 is free
+    if not case["solutions"]:  # the links are equal and the tip is at the base, so q1 is free
         assert abs(rows[:, 1]) == pytest.approx(np.pi) and (rows[:, 0] == 0).all()
     tolerance = 1e-4 if case["singular"] else 1e-9
     for row, solution in zip(rows, [*case["solutions"], *case["solutions"]][:2], strict=False):
@@ -65,7 +65,7 @@ def test_ik_contains_the_original_joint_values(l1, l2, base, shape):
     np.testing.assert_array_equal(arm.ik(pose.translation), rows)
     np.testing.assert_array_equal(arm.ik(pose.translation[..., :2]), rows)
     assert within(arm, rows).all()
-    # two circles: the elbow is l1 from the base and l2 from the tip, and never changes sides
+    # the elbow is at the distances l1 from the base and l2 from the tip, and never changes sides
     elbow, tip = elbows(arm, rows), pose.translation[..., None, :2]
     assert np.linalg.norm(elbow - base, axis=-1) == pytest.approx(l1)
     assert np.linalg.norm(elbow - tip, axis=-1) == pytest.approx(l2)
@@ -79,10 +79,10 @@ def test_ik_is_correct_at_and_near_x3_equal_to_zero(x3):
     rows = arm.ik((x3, 0.3))
     assert abs(rows - near).max() < 1e-6
     np.testing.assert_allclose(arm.fk(rows).translation, [(x3, 0.3, 0)] * 2, atol=1e-15)
-    tiny = arm.ik((x3, 0.0))  # the tip is on the base, or almost
+    tiny = arm.ik((x3, 0.0))  # the tip is at the base or very close to it
     np.testing.assert_allclose(arm.fk(tiny).translation, [(x3, 0, 0)] * 2, atol=1e-15)
     assert abs(tiny[:, 1]) == pytest.approx(np.pi, abs=2e-9)
-    if x3:  # link 1 is then perpendicular to the line to the tip, on either side
+    if x3:  # link 1 is then perpendicular to the line to the tip and may be on either side
         ahead = 0 if x3 > 0 else np.pi
         assert turns(tiny[:, 0], [ahead - np.pi / 2, ahead + np.pi / 2]).max() < 1e-9
 
@@ -129,13 +129,13 @@ def test_explain_states_each_reason():
 
 def test_follow_goes_through_the_base_with_one_elbow():
     arm = two_link(1, 1)
-    x = np.linspace(-1, 1, 201)  # at x = 0 the tip is on the base, where q1 is free
+    x = np.linspace(-1, 1, 201)  # at x = 0 the tip is at the base, where q1 is free
     q = follow(arm, arm.ik(np.stack([x, 0 * x], axis=-1)), arm.branch(+1))
     np.testing.assert_allclose(arm.fk(q).translation[:, 0], x, atol=1e-12)
     assert abs(np.diff(q, axis=0)).max() < 0.03
 
 
-def test_wrong_arguments_are_refused():
+def test_invalid_arguments_are_refused():
     for call, complaint in (
         (lambda: two_link(0, 1), "l1: wanted one positive length"),
         (lambda: two_link(1, -2), "l2: wanted one positive length"),

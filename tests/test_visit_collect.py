@@ -171,7 +171,7 @@ class Walk:
 
 
 def walked(task, order, short_way=False):
-    """The times at which the points are served in this order."""
+    """The times at which the points are reached in this order."""
     walk, times = Walk(task, short_way), []
     for i in order:
         times.append(walk.to(i).time)
@@ -179,7 +179,7 @@ def walked(task, order, short_way=False):
 
 
 def cheapest_next(task, short_way=False):
-    """The order that always takes the cheapest remaining point while there is time."""
+    """The order in which each next point is the cheapest one that remains, while there is time."""
     walk, order = Walk(task, short_way), []
     while len(order) < len(task.points):
         ways = {i: walk.copy().to(i) for i in range(len(task.points)) if i not in order}
@@ -298,10 +298,10 @@ def test_results_are_consistent(case):
 
 @pytest.mark.parametrize("k", [1e-5, 1, 1e5])
 def test_tolerance_scales_with_the_reach(k):
-    """Errata S0-l: a point past a border by less than 1e-12 of the reach counts as lying on it, at
-    any size.
+    """Errata S0-l: a point that is outside the workspace by less than 1e-12 times the reach counts
+    as on the boundary, for an arm of any size.
     """
-    behind = np.sqrt(25 - 16)  # the height at which the inner border for l1 < l2 meets the axis
+    behind = np.sqrt(25 - 16)  # the height at which the inner boundary for l1 < l2 meets the axis
     for l1, l2, border, outward, condition in (
         (5, 4, (0, 0, 9), (0, 0, 1), 0),
         (5, 4, (4, 3, 0), (0, 0, -1), 1),
@@ -319,7 +319,7 @@ def test_tolerance_scales_with_the_reach(k):
     np.testing.assert_allclose(
         q, principal_postures(5, 4, [(2, 3, 2), (1, 3, 3), (0, 0, 9), (0, 0, 0.5)]), atol=1e-7
     )
-    # a point is on axis 1 if it is nearer than 1e-13 of the reach
+    # a point is on axis 1 if it is nearer to it than 1e-13 times the reach
     for rho, free in ((0.5e-13, True), (2e-13, False)):
         assert np.isnan(principal_postures(5 * k, 4 * k, (9 * k * rho, 0, 6 * k))[0]) == free
         folded = principal_postures(4 * k, 4 * k, (0, 0, 8 * k * rho))
@@ -339,7 +339,7 @@ def test_travel_time_is_a_metric():
             and (legs == legs.T).all()
             and (legs[~np.eye(30, dtype=bool)] > 0).all()
         )
-        assert (legs[:, None] <= legs[:, :, None] + legs + 1e-12).all()  # no detour is shorter
+        assert (legs[:, None] <= legs[:, :, None] + legs + 1e-12).all()  # no detour takes less time
 
 
 def test_the_slowest_joint_sets_the_travel_time():
@@ -360,7 +360,7 @@ def test_joint_1_may_take_the_shorter_turn():
 
 @pytest.mark.parametrize("x", [0.0, -0.0, 1e-17])
 @pytest.mark.parametrize("y", [0.0, -0.0, -1e-17])
-def test_point_on_the_axis_needs_no_turn(x, y):
+def test_point_on_the_axis_needs_no_turn_of_joint_1(x, y):
     """Errata S0-p: the printed program takes 15.7 s."""
     there = make(p0=(-2, 0, 4), points=[(x, y, 4.9)], T=100)
     back = make(p0=(x, y, 4.9), points=[(-2, 0, 4)], T=100)
@@ -385,7 +385,7 @@ def test_negative_zero_equals_zero():
 
 
 def test_precision_is_kept_near_the_origin():
-    """Equal links, nearly folded: the law of cosines would lose half of the digits."""
+    """The equal links are nearly folded, so the law of cosines would lose half of the digits."""
     for d in 10.0 ** -np.arange(1, 12):
         point = d * np.array([0.48, -0.64, 0.6])
         q = principal_postures(4, 4, point)
@@ -414,8 +414,8 @@ def test_two_joints_are_free_where_the_arm_folds_onto_the_origin():
 
 
 def test_path_over_the_axis_still_needs_the_turn_of_joint_1():
-    """Regression: on a path through a point on the axis the arm needs the turn of the direct path,
-    15.71 s; the first version took 5.84 s, with joint 1 at 0.538 rad/s.
+    """Regression: on a path through a point on the axis, joint 1 needs 15.71 s for the turn of the
+    direct path. The first version took 5.84 s, with joint 1 at 0.538 rad/s.
     """
     task = make(p0=(-2, 0.01, 4), points=[(0, 0, 6.5), (2, -0.01, 4)], T=100)
     turn = np.pi / 0.2
@@ -425,7 +425,7 @@ def test_path_over_the_axis_still_needs_the_turn_of_joint_1():
         result = method(task)
         assert result.order == (0, 1) and result.time > direct + 2.9
         t, q = itinerary(task, result)
-        assert q[1, 0] == q[0, 0], "joint 1 does not move"
+        assert q[1, 0] == q[0, 0], "joint 1 should not move"
         assert (abs(np.diff(q, axis=0)) / np.diff(t)[:, None]).max() == pytest.approx(0.2)
     assert visit(make(**vars_of(task), T=15)).order == (0,)
 
@@ -442,15 +442,15 @@ def test_collecting_into_a_container_on_the_axis_keeps_the_speed_limit():
     quarter = np.pi / 2 / 0.2
     assert 4 * 2 * way == pytest.approx(23.36, abs=0.005)
     result = collect(task)
-    # the start takes the angle of the first point, the next two points are each a quarter turn
-    # further on, and the last one lies beyond the stop at half a turn
+    # joint 1 starts at the angle of the first point, each of the next two points is a quarter turn
+    # further on, and the last one is beyond the limit at half a turn
     assert result.order == (0, 1, 2, 3)
     np.testing.assert_allclose(
         np.diff(result.times, prepend=0), [2 * way, *2 * [quarter + way], 3 * quarter + way]
     )
     t, q = itinerary(task, result)
     assert (abs(np.diff(q, axis=0)) / np.diff(t)[:, None]).max() == pytest.approx(0.2)
-    assert (q[2::2, 0] == q[1::2, 0]).all(), "joint 1 moves on the way to the container"
+    assert (q[2::2, 0] == q[1::2, 0]).all(), "joint 1 should not move on the way to the container"
     # Going from one end of the turn to the other takes less time, so the cheapest next point is not
     # optimal here.
     assert walked(task, (3, 0, 1, 2))[-1] == pytest.approx(2 * way + 3 * (quarter + way))
@@ -461,7 +461,8 @@ def test_collecting_into_a_container_on_the_axis_keeps_the_speed_limit():
     for other in (
         make(kind="collect"),
         make(p0=(0, 0, 6)),
-        make(p0=(0, 0, 6), points=[(2, 3, 2)], kind="collect"),  # a single point has only one order
+        # there is only one order of a single point
+        make(p0=(0, 0, 6), points=[(2, 3, 2)], kind="collect"),
     ):
         assert "axis 1" not in report(other, answer(other))
     two = make(p0=(0, 0, 6), kind="collect")
@@ -469,7 +470,7 @@ def test_collecting_into_a_container_on_the_axis_keeps_the_speed_limit():
 
 
 def on_the_axis():
-    """Tasks with points on axis 1 and, with equal links, at the origin, where p0 may be too."""
+    """Tasks with points on axis 1 and, for equal links, at the origin; p0 may also be there."""
     for seed in range(40):
         rng = np.random.default_rng(seed)
         equal, n = seed % 2, 2 + seed % 4
@@ -589,8 +590,8 @@ def test_above_floor_avoids_moves_below_the_floor():
 
 @pytest.mark.parametrize("k", [1e-3, 1, 1e3])
 def test_tiny_dips_below_the_floor_count_as_rounding(k):
-    """Between two neighbouring points on the floor the dip grows with the square of
-    their distance.
+    """Between two neighbouring points on the floor, the dip is proportional to the square of their
+    distance.
     """
 
     def beside(distance):
@@ -607,7 +608,7 @@ def test_tiny_dips_below_the_floor_count_as_rounding(k):
 
 
 @pytest.mark.parametrize("kind", ["visit", "collect"])
-def test_above_floor_serves_what_it_can_from_a_start_on_the_axis(kind):
+def test_above_floor_includes_every_possible_point_from_a_start_on_the_axis(kind):
     task = make(p0=(0, 0, 3), points=[(1.05, 0, 0), (7, 0, 0), (3, 0, 0.2)], T=1000, kind=kind)
     low = lowest(5, 4, task.q[:, None], task.q) < -1e-9
     assert low[2, 1] and low[1, 2] and not low[0].any()
@@ -639,15 +640,15 @@ def test_lowest_matches_a_dense_sample(l1, l2):
     ends = np.minimum(task.points[:, 2], np.vstack([task.p0, task.points[:-1]])[:, 2])
     assert (got <= ends + 1e-12).all()
     if l1 <= l2:
-        assert (got > -1e-12).all(), "no dips for l1 <= l2"
+        assert (got > -1e-12).all(), "the tool should not dip for l1 <= l2"
     if l1 > 1.2 * l2:
         assert (got < ends - 1e-2 * l1).any() and (got < 0).any()
 
 
 @pytest.mark.parametrize("l1, l2", [(5, 4), (4, 5), (9, 1)])
 def test_lowest_is_correct_for_any_move(l1, l2):
-    """Moves between any postures within the limits; their lowest point is often between
-    the ends.
+    """The moves are between any postures within the limits; their lowest point is often between the
+    ends.
     """
     start, end = np.random.default_rng(6).uniform(-np.pi / 2, np.pi / 2, (2, 2000, 3))
     task = make(l1=l1, l2=l2, p0=(0, 8.5, 1), points=[(0, 8.5, 1)])
@@ -666,8 +667,8 @@ def test_lowest_is_the_same_in_both_directions(l1, l2):
 
 
 def test_floor_check_finds_the_shallowest_dips():
-    """Moves between points on the floor or just above it: the shallowest dips are found, and there
-    are no false ones. The reference bisects the bracket around the minimum of a dense sample.
+    """For moves between points on the floor or just above it, the check finds the shallowest dips
+    and no false ones. The reference bisects the bracket around the minimum of a dense sample.
     """
     from scipy.optimize import minimize_scalar
 
@@ -690,7 +691,7 @@ def test_floor_check_finds_the_shallowest_dips():
         found = minimize_scalar(height, bounds=bounds, method="bounded", options={"xatol": 1e-12})
         exact.append(min(found.fun, sample.min()))
     np.testing.assert_allclose(got, exact, rtol=0, atol=1e-8)
-    assert ((-1e-3 < got) & (got < -1e-8)).sum() > 3, "some dips are shallow"
+    assert ((-1e-3 < got) & (got < -1e-8)).sum() > 3, "wanted some shallow dips"
 
 
 def test_lowest_accepts_batches_and_free_joints():
@@ -702,7 +703,7 @@ def test_lowest_accepts_batches_and_free_joints():
     for i, j, k in ((0, 0, 0), (0, 2, 1), (2, 1, 3)):
         assert wide[i, j, k] == lowest(5, 4, q[i, k], q[j, k])
     assert lowest(5, 4, np.zeros((0, 3)), np.zeros(3)).shape == (0,)
-    # one move at a time or many at once
+    # one move at a time and many at once give the same result
     many = np.tile(drawn(rng, 300).q, (15, 1))
     assert (
         lowest(5, 4, many, many[::-1])[:301] == lowest(5, 4, many[:301], many[::-1][:301])
@@ -740,7 +741,9 @@ def test_time_equal_to_T_counts():
         assert best_visit(make(**vars_of(full), T=best.time)) == best
         assert len(best_visit(make(**vars_of(full), T=best.time * (1 - 1e-9))).order) == n - 1
     assert collect(make(T=6.097347887100909)).order == (0,)  # errata S0-r
-    assert visit(make(T=4.379934189305)).order == (0, 1), "T copied from the report, which rounds"
+    assert visit(make(T=4.379934189305)).order == (0, 1), (
+        "T was copied from the report, which rounds it"
+    )
 
 
 @pytest.mark.parametrize(
@@ -752,11 +755,11 @@ def test_visit_ends_when_there_is_no_time_for_the_nearest_point(T, served):
     assert visit(make(T=T)).left == tuple({0, 1} - set(served))
 
 
-def test_serving_nothing_takes_no_time():
+def test_tour_without_points_takes_no_time():
     result = visit(make(T=0))
     assert result == best_visit(make(T=0)) == collect(make(T=0)) == Result((), (), (0, 1))
     assert result.time == 0.0
-    # only points where the arm already is are served
+    # only points at which the arm already is are visited
     at_start = make(T=0, points=[(2, 3, 2), (1, 1, 1), (1, 1, 1)])
     assert visit(at_start).order == collect(at_start).order == best_visit(at_start).order == (1, 2)
 
@@ -783,11 +786,11 @@ def test_ties_go_to_the_lowest_index():
 
 
 def test_extreme_speeds_and_times_cause_no_warning():
-    """Extreme float values still give an answer."""
+    """There is an answer even for extreme float values."""
     never = make(speeds=(5e-324,) * 3, T=1.7e308)
     assert visit(never).order == collect(never).order == best_visit(never).order == ()
     at_once = make(speeds=(1.7e308,) * 3, T=0)
-    assert visit(at_once).order == ()  # a fast move still takes more than 0 s
+    assert visit(at_once).order == ()  # even a fast move takes more than 0 s
     assert visit(make(speeds=(1.7e308,) * 3, T=1e-300)).order == (0, 1)
 
 
@@ -838,7 +841,7 @@ def test_remaining_points_are_sorted():
         assert method(make(points=points, T=T)).left == (1, 8)
 
 
-def test_more_time_never_serves_fewer_points():
+def test_more_time_never_reduces_the_number_of_points():
     rng = np.random.default_rng(7)
     given = vars_of(drawn(rng, 7))
     for method in (collect, visit, best_visit):
@@ -889,7 +892,9 @@ def test_itinerary_over_the_axis_is_complete():
         spbu_arm(4, 4).fk(q).translation[1:], task.points[list(visit(task).order)], atol=1e-12
     )
     up = make(p0=(0, 0, 5), points=[(0, 0, 6)], T=100)
-    assert (itinerary(up, visit(up))[1][:, 0] == 0).all(), "nothing determines joint 1"
+    assert (itinerary(up, visit(up))[1][:, 0] == 0).all(), (
+        "wanted 0, since nothing determines joint 1"
+    )
     assert itinerary(make(T=0), visit(make(T=0)))[1] == pytest.approx(make().q[:1])
 
 
@@ -1005,7 +1010,7 @@ def test_a_report_counts_low_moves_after_the_first_ten():
 
 
 def test_the_exact_optimum_of_sixteen_points_takes_seconds():
-    """Tested with and without points on the axis."""
+    """The tasks are with and without points on axis 1."""
     rng = np.random.default_rng(9)
     for axis in (0, 6):
         task = drawn_on_the_axis(rng, EXACT_LIMIT, axis=axis, T=30)
@@ -1016,7 +1021,7 @@ def test_the_exact_optimum_of_sixteen_points_takes_seconds():
         assert best.times == pytest.approx(walked(task, best.order), rel=1e-9)
 
 
-# ---- Wrong tasks
+# ---- Invalid tasks
 
 
 def test_wrong_joint_values_are_detected():
@@ -1031,15 +1036,17 @@ def test_wrong_joint_values_are_detected():
     )
     q = make().q[1]
     assert misfit(5, 4, q, (2, 3, 2)) < 1e-14
-    assert misfit(5, 4, q + [0.5, 0, 0], (2, 3, 2)) > 1.7, "the angle of joint 1 is not checked"
+    assert misfit(5, 4, q + [0.5, 0, 0], (2, 3, 2)) > 1.7, "the angle of joint 1 should be checked"
     rows = spbu_arm(5, 4).ik((2, 3, 2))
-    assert misfit(5, 4, rows, (2, 3, 2))[1:].tolist() == [np.inf] * 3, "past the limits"
+    assert misfit(5, 4, rows, (2, 3, 2))[1:].tolist() == [np.inf] * 3, (
+        "wanted inf outside the limits"
+    )
     assert np.isnan(misfit(5, 4, spbu_arm(5, 4).ik((9, 9, 9)), (9, 9, 9))).all()
 
 
 @pytest.mark.parametrize("k", [1e-3, 1e3])
 def test_misfit_detects_a_wrong_inverse(k, monkeypatch):
-    """The joint values of the inverse are put into the forward kinematics, point by point."""
+    """The joint values of the inverse are checked with the forward kinematics, point by point."""
     right = principal_postures
     given = GOOD | {"L1": 5 * k, "L2": 4 * k, "p0": [k, k, k], "pi": [[0, 9 * k, 0]] * 12}
 
@@ -1299,8 +1306,8 @@ def test_tasks_are_read_only():
 
 
 def test_arrays_without_numbers_are_refused():
-    """Arrays are refused even if each item would convert to a number: to NumPy, nanoseconds are
-    whole numbers.
+    """Arrays are refused even if each item could be converted to a number: for NumPy, nanoseconds
+    are whole numbers.
     """
     for p0 in (
         np.array([1, 1, 1], dtype="datetime64[ns]"),
@@ -1349,7 +1356,7 @@ def test_a_task_accepts_arrays():
     assert visit(make(points=[np.array([2.0, 3, 2]), (1, 3, np.float32(3))])) == visit(make())
 
 
-def test_wrong_calls_are_refused():
+def test_invalid_calls_are_refused():
     good = visit(make())
     for call, kind, evidence in (
         (lambda: visit(GOOD), TypeError, "task: wanted a Task"),

@@ -1,9 +1,11 @@
-"""What a player lets its reader watch: the large panel, the joints, named quantities, the opening
-curve, limits that are exceeded, and the row of `ik`; and how much of the screen all this needs.
+"""What a player lets its reader watch: the large panel, the joints, named quantities, the initial
+curve, limits that are exceeded, and the row of `ik`. The tests also check how much of the screen
+all this needs.
 """
 
 import numpy as np
 import pytest
+import test_singularity_explorer
 from conftest import awake
 from test_player import FRACTIONS, GOAL, ROW, SCARA, START, VIA, T, chain, ink, kept, unpacked
 
@@ -11,6 +13,7 @@ from robokin import IRB140, PUMA560, deg, follow, lin, mm, ptp, quintic, three_l
 from robokin import SCARA as WITH_ROWS
 from robokin.show import (
     animate,
+    elbow_explorer,
     joint_explorer,
     motion_explorer,
     motor_explorer,
@@ -31,7 +34,9 @@ def motions():
 
 @pytest.fixture
 def page(browser):
-    """A page as wide as a JupyterLab output next to its file browser, on a screen 1366 px wide."""
+    """A page as wide as an output of JupyterLab with its file browser open, on a screen 1366 px
+    wide.
+    """
     page = browser.new_page(viewport={"width": 914, "height": 647})
     said = []
     page.on("pageerror", lambda error: said.append(str(error)))
@@ -59,7 +64,7 @@ def opened(page, view, tmp_path, curves=True):
 
 
 def anew(page):
-    """The frames of the panels and the text in one new picture."""
+    """The frames of the panels and the text of one new picture."""
     page.evaluate("frames_.length = written.length = 0")
     page.set_viewport_size({"width": 1827 - page.viewport_size["width"], "height": 647})
     ink(page, ".rk-curves")
@@ -73,15 +78,17 @@ def two_arms(motions):
     return animate([IRB140, IRB140], T, [motions, motions[::-1]], names=["A", "B"], **PLAIN)
 
 
-def in_one_space(_):
-    return animate([IRB140] * 2, CLOCK, [TURNING] * 2, names=["A", "B"], bases=[[0, 0], [0, 1]])
+def in_one_space(_, other=(0, 1)):
+    return animate([IRB140] * 2, CLOCK, [TURNING] * 2, names=["A", "B"], bases=[[0, 0], other])
 
 
 VIEWS = {
     "one arm": (lambda q: animate(IRB140, T, q, **PLAIN), 560),
     "two arms": (two_arms, 600),
     "one space": (in_one_space, 640),
+    "one place": (lambda _: in_one_space(_, (0, 0)), 560),
     "motion explorer": (lambda _: motion_explorer(IRB140, START, VIA, GOAL), 560),
+    "corner": (lambda _: motion_explorer(IRB140, START, VIA, GOAL, close_up=True), 560),
 }
 
 
@@ -89,8 +96,11 @@ EXPLORERS = {
     "joints": lambda: joint_explorer(IRB140),
     "target of eight rows": lambda: target_explorer(IRB140),
     "target of two rows": lambda: target_explorer(WITH_ROWS),
+    "zone of a SCARA": lambda: target_explorer(WITH_ROWS, zone=True),
     "three levers": lambda: target_explorer(three_lever((0.3, 0.2, 0.4))),
+    "elbow": lambda: elbow_explorer(IRB140),
     "motor": motor_explorer,
+    "singularity": test_singularity_explorer.view,
 }
 
 
@@ -113,7 +123,7 @@ def test_view_fits_on_the_screen_with_a_large_panel(page, motions, tmp_path, vie
     assert max(h for _, _, _, h in frames) >= 180
 
 
-def test_sentences_do_not_move_the_pictures(page, tmp_path):
+def test_notes_do_not_move_the_pictures(page, tmp_path):
     q = np.stack([HALVES, TURNING])  # the first motion exceeds a limit
     opened(page, animate(IRB140, CLOCK, q, slider=("x", [0, 1])), tmp_path)
     before = page.locator(".rk-scene").bounding_box()
@@ -125,7 +135,7 @@ def test_sentences_do_not_move_the_pictures(page, tmp_path):
 
 @pytest.mark.parametrize("count", [1, 3, 4, 6])
 def test_panels_share_the_height(page, count):
-    """The large panel gets its full height if there is room; no small panel is too low."""
+    """The large panel gets its full height if there is room, and no small panel is too low."""
     for room in (150, 210, 300, 480, 900):
         for large in range(count):
             shown = page.evaluate(
@@ -149,7 +159,7 @@ def test_reader_chooses_the_large_panel(page, motions, tmp_path):
     for large in range(3):
         menu.select_option(str(large))
         frames, words = anew(page)
-        heights = [h for _, _, _, h in frames][-3:]  # if there are two pictures, of the last
+        heights = [h for _, _, _, h in frames][-3:]  # those of the last picture, if there are two
         assert len(heights) == 3 and np.argmax(heights) == large
         assert {"angle, °", "speed, °/s", "acceleration, °/s²"} <= set(words)
 
@@ -177,7 +187,7 @@ def test_unwatched_joints_are_faint_and_show_no_limits(page):
     assert position["near"] == [[2, 1]]
 
 
-def test_scales_do_not_change_and_the_opening_curve_is_a_ghost(page, motions):
+def test_scales_do_not_change_and_the_initial_curve_remains_visible(page, motions):
     player = animate(IRB140, T, motions, **PLAIN)
     first = panels_of(page, player, 0)
     assert all(line["opening"] is None for panel in first for line in panel["lines"])
@@ -189,7 +199,7 @@ def test_scales_do_not_change_and_the_opening_curve_is_a_ghost(page, motions):
                 assert old["values"] != line["values"]
 
 
-def test_ghost_breaks_where_the_opening_motion_breaks(page):
+def test_initial_curve_breaks_where_its_motion_breaks(page):
     torn = TURNING.copy()
     torn[300:, 3] += 1
     player = animate(IRB140, CLOCK, np.stack([torn, TURNING]), slider=("x", [0, 1]))
@@ -221,7 +231,7 @@ def test_quantity_has_its_own_panel(page, motions, tmp_path):
 # --- Limits, rows and marks -----------------------------------------------------------------------
 
 
-def test_arm_shows_the_joints_past_a_limit(page, tmp_path):
+def test_arm_shows_the_joints_that_exceed_a_limit(page, tmp_path):
     player = animate(IRB140, CLOCK, HALVES)
     opened(page, player, tmp_path)
     past = HALVES[:, 2] > 50 * deg
@@ -240,7 +250,7 @@ def test_arm_shows_the_joints_past_a_limit(page, tmp_path):
 
 @pytest.mark.parametrize("arm", [IRB140, PUMA560], ids=lambda arm: arm.name)
 def test_row_of_every_posture_is_named(arm):
-    """The motion goes through all rows of one pose, one after the other."""
+    """The motion goes through all rows of a pose, one after the other."""
     pose = arm.fk([0.3, -0.4, 0.5, 0.6, 0.7, 0.8])
     rows = arm.ik(pose)
     q = np.repeat(rows, 10, axis=0)
@@ -267,7 +277,7 @@ def test_row_stays_the_same_through_a_singularity_and_is_missing_without_an_inve
     assert plain.data["arms"][0]["rows"] is None
 
 
-def test_row_is_written_under_the_arm(page, tmp_path):
+def test_row_is_shown_below_the_arm(page, tmp_path):
     q = follow(IRB140, IRB140.ik(lin(START, GOAL, np.linspace(0, 1, 101))), ROW)
     _, words = opened(page, animate(IRB140, np.linspace(0, 2, 101), q), tmp_path)
     signs = " ".join(f"{flag:+d}" for flag in IRB140.branches[ROW]).replace("-", "−")
@@ -275,7 +285,7 @@ def test_row_is_written_under_the_arm(page, tmp_path):
 
 
 def test_each_mark_names_its_arm(page):
-    """Two arms share each panel; the label of a jump names its arm, and a limit is shown once."""
+    """Two arms share each panel: the label of a jump names its arm, and a limit is shown once."""
     jump = TURNING.copy()
     jump[300:, 3] += 1
     player = animate([IRB140] * 2, CLOCK, [TURNING, jump], names=["smooth", "torn"])
@@ -305,7 +315,7 @@ def test_each_mark_names_its_arm(page):
         ({"quantities": {3: np.zeros(601)}}, "quantities: wanted a string"),
     ],
 )
-def test_wrong_arguments_are_refused(given, words):
+def test_invalid_arguments_are_refused(given, words):
     with pytest.raises(ValueError, match=words):
         animate(IRB140, CLOCK, TURNING, **given)
     with pytest.raises(ValueError, match="quantity d: wanted a list with one array for each of 2"):

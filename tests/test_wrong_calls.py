@@ -1,5 +1,5 @@
-"""Wrong calls of every public callable: each argument in turn is replaced by every wrong value
-below.
+"""Invalid calls of every public callable: each argument in turn is replaced by each of the wrong
+values below.
 
 A call may raise only ValueError or TypeError, with a message from robokin and not from NumPy; no
 call may take longer than `SECONDS`, and NumPy must not warn. `test_wrong_input.py` checks the
@@ -137,9 +137,9 @@ SKETCH, CORNERS = figures.Sketch("words"), np.array([[0, 0], [0.3, 0.2], [0.5, 0
 PLAYER = figures.animate(IRB140, TIMES, MOTION)
 EXPLORER = figures.joint_explorer(IRB140)
 
-# "name" or "name (case)" -> the callable, all its arguments with legal values, and then the names
-# of the arguments to replace, if not all. Names from robokin.jobs begin with the name of their
-# module.
+# For each "name" or "name (case)": the callable, all its arguments with legal values, and then the
+# names of the arguments to replace, if not all. Names from robokin.jobs begin with the name of
+# their module.
 CALLS = {
     # robokin
     "Quaternion": (Quaternion, dict(wxyz=np.array([0.6, 0.8, 0, 0]))),
@@ -356,7 +356,8 @@ CALLS = {
         figures.joint_explorer,
         dict(arm=IRB140, q=SIX, singular=True, wrist=True),
     ),
-    "target_explorer": (figures.target_explorer, dict(arm=SCARA, target=PLACE)),
+    "elbow_explorer": (figures.elbow_explorer, dict(arm=IRB140)),
+    "target_explorer": (figures.target_explorer, dict(arm=SCARA, target=PLACE, zone=True)),
     "tour_explorer": (figures.tour_explorer, dict(task=TASK)),
     "motion_explorer": (
         figures.motion_explorer,
@@ -368,13 +369,30 @@ CALLS = {
             row=1,
             law="linear",
             duration=4.0,
+            close_up=True,
         ),
+    ),
+    "rotation_explorer": (
+        figures.rotation_explorer,
+        dict(angle=1.0, axis=(0.0, 0.0, 1.0), v=(0.1, 0.0, 0.2)),
     ),
     "plan_explorer": (
         figures.plan_explorer,
         dict(arm=LEVERS, posture=FOLDED, target=POINT, obstacle=OBSTACLE),
     ),
+    "conveyor_player": (
+        figures.conveyor_player,
+        dict(v=0.2, spreads=np.array([0.0, 0.5, 1.0]), arms=3),
+    ),
+    "singularity_explorer": (
+        figures.singularity_explorer,
+        dict(arm=IRB140, q=np.zeros(6), way=(0.0, 1.0, 1.0), most=0.02, step=0.001),
+    ),
     "motor_explorer": (figures.motor_explorer, dict(motor=STEPPER)),
+    "movement_explorer": (
+        figures.movement_explorer,
+        dict(arm=LEVERS, previous=FOLDED, target=POINT),
+    ),
     "bars": (
         figures.bars,
         dict(ax=PLOT, values={"a": 1.0}, form="{:g} s", xlabel="t, s", title="t"),
@@ -470,6 +488,7 @@ CALLS = {
     "visit_collect.answer": (visit_collect.answer, dict(task=TASK, above_floor=False)),
     "visit_collect.report": (visit_collect.report, dict(task=TASK, result=RESULT)),
     "conveyor.spaced": (conveyor.spaced, dict(count=4, gap=0.15, spread=0.5, seed=3)),
+    "conveyor.ways_from": (conveyor.ways_from, dict(bin_place=np.array([0.2, -0.3, 0.2]))),
     "conveyor.Trips": (conveyor.Trips, _fields(conveyor.serve([0.1], 0.1, S, S + 1)[0])),
     "conveyor.serve": (
         conveyor.serve,
@@ -624,7 +643,7 @@ class Sulky:
         raise RuntimeError("no")
 
 
-# name -> a function that makes the value, since some values can be used only once
+# For each name: a function that makes the value, since some values can be used only once.
 WRONG = {
     "None": lambda: None,
     "empty string": lambda: "",
@@ -729,7 +748,9 @@ FLAGS = ("None", "a word", "object", "masked", "record array", "empty rows", "se
 
 
 def derived(value):
-    """Wrong (and some legal) values made from the legal value of an argument: name -> value."""
+    """Wrong (and some legal) values made from the legal value of an argument: a dict that maps
+    names to values.
+    """
     if isinstance(value, (bool, str, bytes, dict)) or value is None:
         return {}
     try:
@@ -787,7 +808,7 @@ def page(tmp_path_factory):
 
 
 @pytest.mark.parametrize("name", CALLS)
-def test_wrong_calls_are_refused_with_our_messages(name, page):
+def test_invalid_calls_are_refused_with_our_messages(name, page):
     call, right, *chosen = CALLS[name]
     right = {key: page if value is PAGE else value for key, value in right.items()}
     _, complaint = _outcome(call, right)
@@ -824,7 +845,9 @@ def test_every_public_callable_is_in_the_table():
     assert set(called) - set(wanted) == set(), "in the table, but not public"
     for name, parameters in wanted.items():
         if name.split(".")[-1] not in OPERATORS:
-            assert parameters <= called[name], f"{name}: {parameters - called[name]} missing"
+            assert parameters <= called[name], (
+                f"{name}: {parameters - called[name]} are missing in the table"
+            )
 
 
 def test_errors_that_are_not_ours_are_detected():
@@ -870,7 +893,7 @@ def _outcome(call, arguments, seconds=SECONDS):
 
 
 class _watch:
-    """Raise TooLong after some seconds of CPU time, if the system has such an alarm."""
+    """Raise TooLong after some seconds of CPU time, if the system has such a timer."""
 
     def __init__(self, seconds):
         self.seconds = seconds
@@ -890,21 +913,21 @@ class _watch:
 
 
 def _foreign(error):
-    """A complaint about an error message that is not from robokin; "" if it is."""
+    """A complaint if an error message is not from robokin, or else ""."""
     text = "; ".join(str(fault)[:200] for fault in getattr(error, "faults", [error])[:3])
     if not text or len(text) > 500:
         return f"{type(error).__name__} of {len(text)} characters"
     last = traceback.extract_tb(error.__traceback__)[-1]
     ours = last.filename.startswith(PACKAGE) and last.line.startswith("raise")
-    # Python itself refuses an operator between incompatible operands.
+    # Python itself rejects an operator applied to incompatible operands.
     python = isinstance(error, TypeError) and last.name == "<lambda>" and "operand" in text
     return "" if ours or python else f"{FOREIGN}: {type(error).__name__}: {text}"[:200]
 
 
 def _against_the_rule(argument, value, error):
-    """A complaint if an object() is accepted or refused with the wrong exception: TypeError is
+    """A complaint if an object() is accepted or is refused with the wrong exception. TypeError is
     correct where an object of a class is wanted, ValueError where numbers or strings are wanted,
-    and either for a path, which may be both; a flag may be anything.
+    and either for a path, for which both are accepted; a flag may be anything.
     """
     if isinstance(value, bool) or (argument == "path" and error is not None):
         return ""
@@ -949,7 +972,7 @@ def _methods(kind, found, prefix):
         member = getattr(kind, name)
         member = getattr(member, "__func__", member)  # the function of a class method
         ours = getattr(member, "__module__", None) or ""
-        # Matplotlib answers for the arguments of its own methods, also where ours extend them.
+        # Matplotlib checks the arguments of its own methods, also where ours extend them.
         theirs = issubclass(kind, MatplotlibFigure) and hasattr(MatplotlibFigure, name)
         public = (name[0] != "_" or name in OPERATORS) and not theirs
         if public and ours.startswith("robokin") and inspect.isfunction(member):

@@ -1,5 +1,5 @@
-"""Wrong input raises the correct exception with the evidence in its message; unusual input gives
-the correct answer. The tables have one line per call.
+"""Invalid input raises the correct exception with the invalid value in its message; unusual input
+gives the correct answer. The tables have one line per call.
 """
 
 from types import SimpleNamespace
@@ -48,7 +48,7 @@ ONE = SimpleNamespace(links=(Link(),), target=Transform, reach=1.0)
 
 
 class Failing:
-    """An object that claims to be an array but cannot be one."""
+    """An object that claims to be an array but cannot be converted to one."""
 
     def __array__(self, *_, **__):
         raise RuntimeError("no array today")
@@ -279,7 +279,7 @@ WRONG = {
 
 
 @pytest.mark.parametrize("name", WRONG)
-def test_wrong_input_is_named_in_the_error(name):
+def test_error_names_the_invalid_input(name):
     call, evidence = WRONG[name]
     with pytest.raises(
         TypeError if name in OF_ANOTHER_KIND else ValueError, match=evidence

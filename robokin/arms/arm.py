@@ -19,17 +19,17 @@ SCALARS = (int, float, np.number)
 
 @dataclass(frozen=True, init=False, repr=False, eq=False)
 class Arm(Sealed):
-    """A robot arm with n joints. q (..., n) is in radians, metres for a prismatic joint.
+    """A robot arm with n joints. q (..., n) is in radians, or in metres for prismatic joints.
 
     name           its name in figures
     geometry       its links and the quantities derived from them (see `geometry.py`); or a tuple of
                    links, from which the arm makes a geometry without an inverse
     limits         (n, 2), lowest and highest value of each joint; read-only
-    speed_limits   (n,), greatest speeds in rad/s or m/s; read-only; None if they are not known
+    speed_limits   (n,), maximum speeds in rad/s or m/s; read-only; None if they are not known
 
-    An arm whose geometry has a closed-form inverse is a `ClosedFormArm`. ValueError: limits of the
-    wrong shape, or links that never move the flange away from axis 1. TypeError: neither a geometry
-    nor links.
+    An arm whose geometry has a closed-form inverse is a `ClosedFormArm`. Raises ValueError if the
+    limits have the wrong shape or the links never move the flange away from axis 1, and TypeError
+    if `geometry` is neither a geometry nor a tuple of links.
 
     >>> from robokin import Arm, deg, dh_links, mm
     >>> a, d = np.array([[0, -425, -392.25, 0, 0, 0], [89.159, 0, 0, 109.15, 94.65, 82.3]]) * mm
@@ -74,7 +74,7 @@ class Arm(Sealed):
 
     @property
     def links(self) -> tuple[Link, ...]:
-        """The n links, base to flange."""
+        """The n links, from base to flange."""
         return self.geometry.links
 
     @property
@@ -86,22 +86,22 @@ class Arm(Sealed):
 
     @property
     def reach(self) -> float:
-        """The greatest distance in metres between axis 1 and the point that the arm carries (the
+        """The maximum distance in metres between axis 1 and the point that the arm positions (the
         wrist centre, or the tool of an arm without a wrist).
         """
         return self.geometry.reach
 
     @cached_property
     def prismatic(self) -> Bools:
-        """(n,) bool, read-only: which joints are prismatic."""
+        """A read-only bool array (n,): True for each prismatic joint."""
         prismatic = np.array([link.prismatic for link in self.links])
         prismatic.flags.writeable = False
         return prismatic
 
     @cached_property
     def turning(self) -> slice | Bools:
-        """The index of the revolute joints in the last axis: a slice of all of them, or a mask
-        (n,).
+        """The index that selects the revolute joints on the last axis: a slice if all joints are
+        revolute, otherwise a mask (n,).
         """
         if not self.prismatic.any():
             return slice(None)
@@ -110,10 +110,10 @@ class Arm(Sealed):
         return turning
 
     def fk(self, q: ArrayLike) -> Transform:
-        """The flange in base coordinates: q (..., n) -> Transform of shape (...). NaN rows give NaN
-        poses.
+        """The pose of the flange in base coordinates: q (..., n) -> Transform of shape (...). A NaN
+        in q makes the pose NaN.
 
-        It warns (UserWarning) if a joint has made many turns: the angles are probably in degrees.
+        Warns (UserWarning) if an angle is so large that it is probably in degrees.
         """
 
         def flange(joints: Sequence[Any]) -> list[Any]:
@@ -123,11 +123,11 @@ class Arm(Sealed):
         return _transform(self._evaluate(flange, q))
 
     def frames(self, q: ArrayLike) -> Transform:
-        """All frames in base coordinates: the base and the frame after each joint, of which the
-        last is the flange.
+        """All frames in base coordinates: the base frame and the frame after each joint. The last
+        one is the flange.
 
-        q (..., n) -> Transform of shape (..., n + 1). A NaN in q makes its frame and all later ones
-        NaN. It warns as `fk` does.
+        q (..., n) -> Transform of shape (..., n + 1). A NaN in q makes the frame after its joint
+        and all later frames NaN. Warns as `fk` does.
         """
 
         def frames(joints: Sequence[Any]) -> list[Any]:
@@ -140,8 +140,9 @@ class Arm(Sealed):
     def jacobian(self, q: ArrayLike) -> Floats:
         """The geometric Jacobian at the flange in base coordinates: q (..., n) -> (..., 6, n).
 
-        Rows 0..2: linear velocity in m per unit of joint speed; rows 3..5: angular velocity in rad.
-        Source: Siciliano et al., Robotics, 2009, section 3.1.
+        Each column is for a joint speed of 1 rad/s (1 m/s for a prismatic joint). Rows 0 to 2 are
+        the linear velocity in m/s, rows 3 to 5 the angular velocity in rad/s. Source: Siciliano et
+        al., Robotics, 2009, section 3.1.
         """
         n = len(self.links)
 
@@ -159,7 +160,9 @@ class Arm(Sealed):
         return parts.reshape(*parts.shape[:-1], 6, n)
 
     def _walk(self, joints: Sequence[Any]) -> Iterator[tuple[Frame, Frame]]:
-        """Yield for each link, base to flange, the frame of its joint and the frame after it."""
+        """Yield, for each link from base to flange, the frame of its joint and the frame after the
+        link.
+        """
         frame = BASE
         for link, q in zip(self.links, joints, strict=True):
             joint, frame = link._carry(frame, q)
@@ -181,7 +184,7 @@ class Arm(Sealed):
     if not TYPE_CHECKING:  # with __getattr__, a type checker would accept any attribute name
 
         def __getattr__(self, name):
-            """Raise the error for a missing attribute; for `ik` it says what to use instead."""
+            """Raise AttributeError; if the arm lacks `ik`, the message lists the methods it has."""
             words = f"{type(self).__name__!r} object has no attribute {name!r}"
             if name in ("ik", "branch", "branches"):
                 kind = type(self)
@@ -195,7 +198,7 @@ class Arm(Sealed):
 
 @dataclass(frozen=True, init=False, repr=False, eq=False)
 class ClosedFormArm(Arm):
-    """An `Arm` whose inverse kinematics is in closed form: `ik` returns all solutions."""
+    """An `Arm` with closed-form inverse kinematics: `ik` returns all solutions."""
 
     geometry: ClosedForm
 
@@ -206,11 +209,11 @@ class ClosedFormArm(Arm):
 
     @property
     def branches(self) -> Ints:
-        """(rows, flags) of +-1, read-only: the configuration of each row of `ik`, in order."""
+        """A read-only array (rows, flags) of +1 and -1: the configuration of each row of `ik`."""
         return self.geometry.branches
 
     def branch(self, *flags: int) -> int:
-        """The row of `ik` with this configuration. ValueError: flags that the arm does not have."""
+        """Return the row of `ik` with this configuration. Raises ValueError if there is none."""
         for row, wanted in enumerate(self.branches.tolist()):
             if all(isinstance(flag, SCALARS) for flag in flags) and list(flags) == wanted:
                 return row
@@ -218,18 +221,20 @@ class ClosedFormArm(Arm):
         raise ValueError(f"{self.name}: wanted {count} flags of +1 or -1, got {short(flags)}")
 
     def ik(self, pose: Any) -> Floats:
-        """All joint values that bring the flange to `pose` (of the type `target`, or a Transform):
-        shape (...) -> (..., rows, n).
+        """All joint values that bring the flange to `pose` (an instance of `target`, or a
+        Transform): shape (...) -> (..., rows, n).
 
-        Row k is always the configuration `branches[k]`. A row that does not exist is NaN
-        throughout. Angles lie in [-pi, pi]; limits are ignored (see `within`, `nearest`). Where
-        branches coincide the row is repeated. TypeError: a pose of another type.
+        Row k always has the configuration `branches[k]`. A row that does not exist contains only
+        NaN. Angles lie in [-pi, pi]; limits are ignored (see `within`, `nearest`). Where branches
+        coincide, the row is repeated. Raises TypeError if the pose is of another type.
         """
         return self.geometry.ik(pose)
 
 
 def _measured(geometry: Geometry | Sequence[Link], limits: ArrayLike) -> Geometry:
-    """Return a `Chain` with its reach measured for these limits; any other geometry unchanged."""
+    """Return links as a `Chain`, with the reach for these limits; return other geometries
+    unchanged.
+    """
     links = geometry.links if isinstance(geometry, Chain) else geometry
     if not isinstance(links, (tuple, list)) or hasattr(links, "links"):
         return cast(Geometry, geometry)
@@ -238,7 +243,9 @@ def _measured(geometry: Geometry | Sequence[Link], limits: ArrayLike) -> Geometr
 
 
 def _pairs(limits: ArrayLike, n: int) -> Floats:
-    """Return the limits (n, 2) of n joints. ValueError: another shape, or limits out of order."""
+    """Return the limits (n, 2) of n joints. Raises ValueError if their shape is wrong or a lower
+    limit is not below the upper one.
+    """
     pairs = floats(limits, "limits", 2)
     if pairs.shape != (n, 2) or (pairs[:, 0] >= pairs[:, 1]).any():
         got = pairs.tolist() if pairs.size < 50 else f"shape {pairs.shape}"
@@ -249,7 +256,8 @@ def _pairs(limits: ArrayLike, n: int) -> Floats:
 def _transform(parts: Floats) -> Transform:
     """Make a Transform from rotation w, x, y, z and origin x, y, z: (..., 7)."""
     missing = np.isnan(parts[..., 0])
-    # A joint does not move an origin on its own axis, so a NaN angle does not make that origin NaN.
+    # A joint does not move an origin on its own axis, so a NaN angle leaves that origin finite. We
+    # set it to NaN, too.
     if missing.any():
         parts[missing, 4:] = np.nan
     return Transform._of(Quaternion._of(parts[..., :4]), parts[..., 4:])

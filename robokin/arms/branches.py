@@ -17,14 +17,14 @@ from .explanations import SENTENCES
 from .scara import ScaraPose
 
 TURN = 2 * np.pi
-SLACK = 1e-9  # a joint past its limit by no more than this counts as being at it
+SLACK = 1e-9  # a joint that exceeds its limit by no more than this counts as being at the limit
 
 
 def within(arm: Arm, q: ArrayLike) -> Bools:
-    """Which joints of the posture q (..., n) are within their limits: bool (..., n).
+    """Return whether each joint of the posture q (..., n) is within its limits: bool (..., n).
 
-    A revolute joint is inside if q + 2 pi k is inside for some whole number k. NaN is outside. It
-    warns (UserWarning) if an angle is many turns: it is probably in degrees.
+    A revolute joint is within its limits if q + 2 pi k is, for some whole number k. NaN is never
+    within the limits. Warns (UserWarning) if an angle is so large that it is probably in degrees.
 
     >>> from robokin import IRB140, deg, within
     >>> within(IRB140, np.array([0, 120, 0, 0, 0, 390]) * deg)
@@ -36,8 +36,8 @@ def within(arm: Arm, q: ArrayLike) -> Bools:
 
 
 def representative(arm: Arm, q: ArrayLike) -> Floats:
-    """The joint values to show to people: for each joint the value q + 2 pi k that is inside its
-    limits and nearest to q or, if none is inside, the one that exceeds them least.
+    """The joint values to display. For each joint, this is the value q + 2 pi k that is nearest to
+    q among those inside the limits or, if none is inside, the one that exceeds the limits least.
 
     q (..., n) -> (..., n). A prismatic joint has only one value.
 
@@ -48,8 +48,8 @@ def representative(arm: Arm, q: ArrayLike) -> Floats:
     """
     values = floats(q, "q", len(instance(arm, Arm, "arm").links), finite=False)
     value, (low, high) = _inside(arm, values, values), arm.limits.T
-    # Two candidates past the limits: the lowest value above the upper limit and the highest value
-    # below the lower limit.
+    # Two candidates outside the limits: the lowest value above the upper limit and the highest
+    # value below the lower limit.
     above = value - TURN * np.floor((value - high) / TURN)
     below = value + TURN * np.floor((low - value) / TURN)
     least = np.where(above - high <= low - below, above, below)
@@ -58,8 +58,8 @@ def representative(arm: Arm, q: ArrayLike) -> Floats:
 
 
 def unwrapped(arm: Arm, q: ArrayLike, near: ArrayLike) -> Floats:
-    """For each revolute joint the value q + 2 pi k nearest to `near`. Both are (..., n) and are
-    broadcast.
+    """The value q + 2 pi k nearest to `near`, for each revolute joint. The arguments are (..., n)
+    and are broadcast.
     """
     n = len(instance(arm, Arm, "arm").links)
     values, goal = floats(q, "q", n, finite=False), floats(near, "near", n, finite=False)
@@ -70,9 +70,10 @@ def unwrapped(arm: Arm, q: ArrayLike, near: ArrayLike) -> Floats:
 def nearest(arm: Arm, rows: ArrayLike, q: ArrayLike) -> Floats:
     """The row with the least travel from q: rows (..., rows, n), q (..., n) -> (..., n).
 
-    Travel is the sum of the absolute joint changes (rad; m for a prismatic joint). Each joint takes
-    the value q + 2 pi k that is inside its limits and nearest to q or, if none is inside, the
-    nearest one. NaN where no row exists. ValueError: shapes that do not match, no rows.
+    Travel is the sum of the absolute joint changes (in rad, or in m for prismatic joints). Of the
+    values that differ by whole turns, each revolute joint takes the one nearest to q that is inside
+    its limits or, if none is inside, the one nearest to q. The result is NaN where no row exists.
+    Raises ValueError if the shapes do not match or there are no rows.
 
     >>> from robokin import SCARA, ScaraPose, deg, nearest
     >>> rows = SCARA.ik(ScaraPose((0.3, 0.1, 0.2), 0))
@@ -89,11 +90,12 @@ def follow(arm: Arm, rows: ArrayLike, row: int) -> Floats:
     samples, n).
 
     It starts on `row` (at the first sample where that row exists), with each joint inside its
-    limits if possible. Every later sample takes the row nearest to the sample before it, with
+    limits if possible. Every later sample takes the row nearest to the previous sample, with
     unwrapped angles, which may exceed the limits (see `within`). Where a wrist singularity leaves
     joints 4 and 6 free, they share the rotation equally. Where a shoulder singularity leaves joint
     1 free, it keeps the value from `ik`. Samples without a row are NaN, and the motion continues
-    from the last finite one. ValueError: a row that the arm does not have, no samples.
+    from the last finite sample. Raises ValueError if the arm does not have this row or there are no
+    samples.
     """
     options = _rows(arm, rows)
     if options.ndim < 3 or options.shape[-3] == 0:
@@ -107,12 +109,13 @@ def follow(arm: Arm, rows: ArrayLike, row: int) -> Floats:
     before = _start(arm, tracks[:, :, row])[:, None]
     tracks, cost = np.where(missing[..., None], 0.0, tracks), np.where(missing, np.inf, 0.0)
     choose, turn = _chooser(arm), np.where(arm.prismatic, 0.0, TURN)
-    # the samples with free joints; a different shift for each joint, so that no two shifts cancel
+    # Find the samples with free joints. Each joint is shifted by a different amount, so that no two
+    # shifts cancel.
     free = (choose(tracks, tracks + np.arange(1, n + 1)) != tracks).any(axis=(0, 2, 3))
     complete: Bools = np.all(exists, axis=0)
     motions = np.arange(len(tracks))
     q = np.empty((len(tracks), samples, n))
-    # Each sample depends on the one before, so this loop over time cannot be an array operation.
+    # Each sample depends on the previous one, so this loop over time cannot be vectorised.
     for i in range(samples):
         here = tracks[:, i] - turn * np.rint((tracks[:, i] - before) / TURN)
         if free[i]:
@@ -125,12 +128,12 @@ def follow(arm: Arm, rows: ArrayLike, row: int) -> Floats:
 
 
 def explain(arm: ClosedFormArm, pose: Any, row: int) -> str:
-    """Say in one sentence whether row `row` of `arm.ik(pose)` is usable, and if not, why. `pose` is
-    a single pose.
+    """Return a sentence that says whether row `row` of `arm.ik(pose)` is usable and, if not, why.
+    `pose` is a single pose.
 
-    For a pose out of reach it says by how much, and whether the lengths may be in millimetres.
-    Otherwise it names every joint past its limit, with the excess, and every singularity of the
-    posture. The sentences are those of `explanations.SENTENCES`.
+    For a pose that is out of reach, the sentence says by how much, and whether the lengths may be
+    in millimetres. Otherwise it names every joint that exceeds its limit, with the excess, and
+    every singularity of the posture. The sentences are in `explanations.SENTENCES`.
 
     >>> from robokin import SCARA, ScaraPose, explain
     >>> explain(SCARA, ScaraPose((0.46, 0, 0.1), 0), 0)
@@ -164,8 +167,9 @@ def _rows(arm: Arm, rows: ArrayLike) -> Floats:
 
 
 def _within(arm: Arm, q: Floats) -> Bools:
-    """`within` without argument checks. The lowest value q + 2 pi k that is not below the lower
-    limit decides (a prismatic joint has only one value).
+    """`within` without argument checks. A joint is within its limits if the lowest value q + 2 pi k
+    that is not below the lower limit is not above the upper limit (a prismatic joint has only one
+    value).
     """
     low, high = arm.limits[:, 0] - SLACK, arm.limits[:, 1] + SLACK
     lowest = q + TURN * np.ceil((low - q) / TURN)
@@ -189,15 +193,16 @@ def _inside(arm: Arm, q: Floats, near: Floats) -> Floats:
 
 
 def _least(options: Floats, q: Floats) -> Floats:
-    """The option (..., rows, n) with the least travel from q (..., n); NaN where none exists."""
+    """Return the row of `options` with the least travel from q (..., n); NaN if there is none."""
     travel = abs(options - q[..., None, :]).sum(axis=-1)
     best = np.where(np.isnan(travel), np.inf, travel).argmin(axis=-1)
     return np.take_along_axis(options, best[..., None, None], axis=-2)[..., 0, :]
 
 
 def _missing(tracks: Floats, row: int) -> Bools:
-    """Which rows a motion (motions, samples, rows, n) cannot take: those that are NaN, all rows
-    before the first sample where `row` exists, and all others at this sample.
+    """The rows that the motions (motions, samples, rows, n) cannot take, as a mask: rows that are
+    NaN, all rows before the first sample where `row` exists, and all rows except `row` at that
+    sample.
     """
     missing: Bools = np.any(np.isnan(tracks), axis=-1)
     started = np.cumsum(~missing[..., row, None], axis=1)
@@ -208,8 +213,8 @@ def _missing(tracks: Floats, row: int) -> Bools:
 
 
 def _chooser(arm: Arm) -> Callable[[Floats, Floats], Floats]:
-    """The function that chooses the free joints of rows near a posture; for an arm without a closed
-    form it returns the rows unchanged.
+    """The function that chooses the values of free joints so that they are close to a given
+    posture. For an arm without a closed-form inverse, this function returns the rows unchanged.
     """
     if isinstance(arm, ClosedFormArm):
         return arm.geometry.choose_free_joints
@@ -217,15 +222,15 @@ def _chooser(arm: Arm) -> Callable[[Floats, Floats], Floats]:
 
 
 def _start(arm: Arm, track: Floats) -> Floats:
-    """The posture that the first sample of a motion along one row (..., samples, n) is compared
-    with.
+    """The posture with which the first sample of a motion along one row (..., samples, n) is
+    compared.
 
-    A motion may begin in a singularity, for example at the IRB-140's home pose. The free joints
+    A motion may begin at a singularity, for example at the IRB-140's home pose. The free joints
     then take their values from the first sample that determines them.
     """
     choose = _chooser(arm)
     exists = ~np.isnan(track).any(axis=-1)
-    # a different shift for each joint, so that no two shifts cancel
+    # each joint is shifted by a different amount, so that no two shifts cancel
     elsewhere = track + np.arange(track.shape[-1])
     determined = np.isclose(choose(track, elsewhere), track, rtol=0, atol=1e-12).all(axis=-1)
     begin = exists.argmax(axis=-1)
@@ -239,7 +244,7 @@ def _start(arm: Arm, track: Floats) -> Floats:
 
 
 def _shrunk(pose: Any) -> Any:
-    """The pose with its lengths read as millimetres."""
+    """The pose with its lengths interpreted as millimetres."""
     if isinstance(pose, Transform):
         return replace(pose, translation=pose.translation / 1000)
     if isinstance(pose, ScaraPose):
@@ -248,7 +253,7 @@ def _shrunk(pose: Any) -> Any:
 
 
 def _excess(arm: Arm, q: Floats, i: int) -> str:
-    """Say by how much joint i is past its limit, in the unit of the joint."""
+    """Return a phrase that says by how much joint i exceeds its limit, in the joint's unit."""
     (low, high), value = arm.limits[i], representative(arm, q)[i]
     limit, over = (high, value - high) if value > high else (low, low - value)
     unit, size = (" mm", mm) if arm.prismatic[i] else ("°", deg)

@@ -19,15 +19,15 @@ def _at(x: float, y: float, z: float) -> Transform:
     return Transform(translation=(x, y, z))
 
 
-#: ABB IRB-140. Chain, lengths and limits: 001, listings 1 and 7 (S1-05, S1-08). The chain is that
-#: of the document, with its frame `wrist` split in two (joints 4 and 5). Public models of this
-#: robot (ROS-Industrial abb_experimental, ARTE) differ: their upper arm is 360 mm long, ours 350
-#: mm, and their joint 2 leans forward at positive angles, ours backward. With q2 negated, their
-#: flange is 10 mm from ours at every posture; without the negation it is 563 mm away at q2 = 30
-#: degrees, all other joints at zero (errata S1-g; companion 001, section 2). ARTE limits joint 5 to
-#: +-120 degrees. We keep the document's values. It states no speeds. Those of joints 3 and 4 are
-#: our choice, below the 260 and 360 degrees/s of the public models; we did not have the
-#: manufacturer's data sheet.
+#: ABB IRB-140. The chain, lengths and limits are from 001, listings 1 and 7 (S1-05, S1-08); we
+#: split the document's frame `wrist` in two (joints 4 and 5). Public models of this robot
+#: (ROS-Industrial abb_experimental, ARTE) differ: their upper arm is 360 mm long, whereas ours is
+#: 350 mm long, and a positive q2 leans it forward, whereas it leans ours backward. With q2 negated,
+#: their flange is 10 mm from ours at every posture; without the negation, it is 563 mm away when q2
+#: = 30 degrees and all other joints are zero (errata S1-g; companion 001, section 2). ARTE limits
+#: joint 5 to +-120 degrees. We keep the document's values. The document states no speed limits. We
+#: chose those of joints 3 and 4, which are below the 260 and 360 degrees/s of the public models; we
+#: did not have the manufacturer's data sheet.
 IRB140 = spherical_wrist(
     "IRB-140",
     links=(
@@ -44,8 +44,8 @@ IRB140 = spherical_wrist(
 )
 
 
-#: SCARA. Lengths: 001, listing 4; limits: listings 4 and 12, joint 4 in mm (errata S1-p). The
-#: document states no speeds.
+#: SCARA. The lengths are from 001, listing 4, the limits from listings 4 and 12, with joint 4 in mm
+#: (errata S1-p). The document states no speed limits.
 SCARA = scara_arm(
     "SCARA",
     height=220.2 * mm,
@@ -56,8 +56,9 @@ SCARA = scara_arm(
     ),
 )
 
-#: PUMA 560. Source 001 mentions it without dimensions. Standard DH with the lengths and limits of
-#: P. Corke's model (Robotics Toolbox, `puma560`), the base raised by 26.45 inches.
+#: PUMA 560. Source 001 mentions this arm but gives no dimensions. The table has standard DH
+#: parameters with the lengths and limits of P. Corke's model (Robotics Toolbox, `puma560`); the
+#: base is raised by 26.45 inches.
 PUMA560 = spherical_wrist(
     "PUMA 560",
     links=dh_links(
@@ -71,8 +72,9 @@ PUMA560 = spherical_wrist(
 
 
 def itmo_arm(d1: float, a2: float, d4: float, d6: float) -> ClosedFormArm:
-    """The six-axis arm of source 004, table 1, for lengths in metres; d1 and d6 may be 0. The
-    source states no limits: we allow one turn each way. ValueError: a length that is not positive.
+    """The six-axis arm of source 004, table 1, with lengths in metres. d1 and d6 may be 0. The
+    source states no limits, so we allow one turn in each direction. Raises ValueError if a length
+    is not positive (or d1 or d6 is negative).
     """
     ends = [number(value, name) for name, value in (("d1", d1), ("d6", d6))]
     if min(ends) < 0:
@@ -95,12 +97,13 @@ ITMO6R = itmo_arm(d1=100 * mm, a2=100 * mm, d4=200 * mm, d6=200 * mm)
 
 
 def spbu_arm(l1: float, l2: float) -> ClosedFormArm:
-    """The positioning arm of source 000 (figure 2) for lengths in metres: joint 1 turns about the
-    vertical, joint 2 tilts link 1 away from it, and at joint 3 = 0 link 2 is perpendicular to link
-    1. The limits are the document's domain. ValueError: a length that is not positive.
+    """The positioning arm of source 000 (figure 2), with lengths in metres. Joint 1 turns about the
+    vertical, joint 2 tilts link 1 away from the vertical, and when joint 3 is 0, the two links are
+    perpendicular. The limits are those that the document states. Raises ValueError if a length is
+    not positive.
 
-    The first matrix of the document has alpha = -90 degrees; the +90 in its text puts the tool
-    below the floor (errata S0-a).
+    The document's first matrix has alpha = -90 degrees; with the +90 degrees in its text, the tool
+    would be below the floor (errata S0-a).
     """
     return elbow_arm(
         "Arm (000)",
@@ -123,12 +126,13 @@ def loader_arm(A: float, B: float) -> ClosedFormArm:
     beta   the interior angle between the levers: lever B points gamma + beta - 180 degrees above
            the horizontal
 
-    The document's posture has the elbow up, 0 <= beta <= 180 degrees: row `arm.branch(+1, -1)`. In
-    that row alpha is atan2(y, x) in all nine cells of table 1 (errata S3-p; in the middle cell, x =
-    y = 0, it is free and `ik` returns 0), and beta and gamma are given by (3) and (4). The limits
-    of alpha are those of the document; those of beta and gamma are the ranges of (3) and (4) for z
-    >= 0. Joint alpha has no mechanical stop: the shortest turn (errata S3-q) may exceed its limits.
-    `robokin.jobs.steppers.out_of_reach` checks the document's conditions on the gripper's point.
+    In the document's posture the elbow is up and 0 <= beta <= 180 degrees; this is row
+    `arm.branch(+1, -1)`. In this row, alpha is atan2(y, x) in all nine cells of table 1 (errata
+    S3-p; in the middle cell, where x = y = 0, alpha is free and `ik` returns 0), and beta and gamma
+    are given by (3) and (4). The limits of alpha are those of the document; those of beta and gamma
+    are the ranges of (3) and (4) for z >= 0. Joint alpha has no mechanical stop, so the shortest
+    rotation (errata S3-q) may exceed its limits. `robokin.jobs.steppers.out_of_reach` checks the
+    document's conditions on the position of the gripper.
 
     Source: 003, paper 1, (1) to (4), table 1, figure 3.
     """

@@ -10,8 +10,8 @@ from .arm import Arm
 
 
 def total_length(arm: Arm) -> float:
-    """The length of the stretched chain from the base in metres, with prismatic joints at their far
-    limit. It sets the scale of pictures.
+    """The length of the fully extended chain from the base, in metres, with prismatic joints at
+    their far limits. It determines the scale of pictures.
     """
     parts = [part for link in instance(arm, Arm, "arm").links for part in (link.before, link.after)]
     shifts = abs(arm.limits[arm.prismatic]).max(axis=-1, initial=0)
@@ -20,7 +20,7 @@ def total_length(arm: Arm) -> float:
 
 def singular_values(arm: Arm, q: ArrayLike) -> Floats:
     """The singular values of the Jacobian at q (..., n) in descending order: the semi-axes of the
-    ellipsoid of tool velocities for joint speeds of norm 1. NaN in, NaN out.
+    ellipsoid of tool velocities for joint speeds of norm 1. They are NaN if q contains NaN.
 
     Lengths are divided by the arm's reach (`Arm.reach`), so the values have no unit. We use only
     the rows of the arm's task (the position of the tool for arms with up to three joints, otherwise
@@ -36,8 +36,8 @@ def singular_values(arm: Arm, q: ArrayLike) -> Floats:
 
 
 def distance_from_singularity(arm: Arm, q: ArrayLike) -> Floats:
-    """The smallest of the `singular_values` at q (..., n): (...). It says how slowly the tool moves
-    in its worst direction; 0 is a singularity.
+    """The smallest singular value (see `singular_values`) at q (..., n), of shape (...). It shows
+    how slowly the tool moves in its slowest direction; it is 0 at a singularity.
 
     >>> from robokin import SCARA, deg, distance_from_singularity
     >>> postures = np.array([(0, 90 * deg, 0, 0), (0, 5 * deg, 0, 0), (0, 0, 0, 0)])
@@ -49,16 +49,17 @@ def distance_from_singularity(arm: Arm, q: ArrayLike) -> Floats:
 
 def velocity_ellipsoid(arm: Arm, q: ArrayLike) -> Floats:
     """The semi-axes of the ellipsoid of tool-point velocities for joint speeds of norm 1 that do
-    not rotate the tool: columns of (..., 3, 3) in m/s, longest first, for q (..., n). Zero columns
-    where the ellipsoid is flat; NaN in, NaN out.
+    not rotate the tool: the columns of an array (..., 3, 3) in m/s, longest first, for q (..., n).
+    Columns are zero where the ellipsoid is flat, and NaN where q contains NaN.
 
-    Joint speeds are in rad/s, those of prismatic joints in reaches (`Arm.reach`) per second. The
-    tool of an arm with up to three joints may rotate, since orientation is not part of its task.
+    Joint speeds are in rad/s; those of prismatic joints are in multiples of `Arm.reach` per second.
+    The tool of an arm with up to three joints may rotate, since orientation is not part of its
+    task.
 
     The semi-axes are the singular values of J_v N, where the columns of N are an orthonormal basis
     of the null space of J_w. Where J_w loses rank, no joint can rotate the tool about some axis:
-    the condition about that axis is void, N has one column more, and the ellipsoid is as large as
-    or larger than next to that posture. At a wrist singularity J_w usually keeps its rank, and one
+    the condition for that axis always holds, N has an additional column, and the ellipsoid is at
+    least as large as at nearby postures. At a wrist singularity J_w usually keeps its rank, and one
     semi-axis is zero.
     """
     instance(arm, Arm, "arm")
@@ -67,7 +68,7 @@ def velocity_ellipsoid(arm: Arm, q: ArrayLike) -> Floats:
     missing = np.isnan(jacobian.sum(axis=(-1, -2)))[..., None, None]
     jacobian = np.where(missing, 0.0, jacobian)
     moves, turns = jacobian[..., :3, :], jacobian[..., 3:, :]
-    if len(arm.links) > 3:  # joint speeds that rotate the tool are removed
+    if len(arm.links) > 3:  # remove joint speeds that rotate the tool
         moves = moves - moves @ np.linalg.pinv(turns, rcond=1e-9) @ turns
     ways, lengths, _ = np.linalg.svd(moves, full_matrices=False)
     lengths = np.where(lengths < 1e-12 * arm.reach, 0.0, lengths)
@@ -86,14 +87,14 @@ def _scaled(arm: Arm, q: ArrayLike) -> Floats:
 
 
 def movable(arm: Arm) -> Ints:
-    """Which rows of the Jacobian are nonzero in at least one posture."""
+    """The indices of the rows of the Jacobian that are nonzero in at least one posture."""
     moved = abs(_scaled(arm, spread(arm, 64))).max(axis=(0, 2)) > 1e-9
     return np.flatnonzero(moved[:3] if len(arm.links) <= 3 else moved)
 
 
 def spread(arm: Arm, count: int, most: float = np.inf) -> Floats:
     """Postures (count, n) spread evenly between the limits, with angles within +-`most` where the
-    limits permit: Weyl's sequence of the square roots of primes.
+    limits permit. They form a Weyl sequence based on the square roots of primes.
     """
     low, high = arm.limits.T
     inner = ~arm.prismatic & (low < most) & (high > -most)

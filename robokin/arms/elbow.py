@@ -1,8 +1,8 @@
 """Positioning arms: three revolute joints, an upper arm and a forearm, with four closed-form
 solutions.
 
-In a six-axis arm the same three joints carry the wrist, and the point to be placed is the wrist
-centre.
+In a six-axis arm, the same three joints carry the wrist, and the point that they position is the
+wrist centre.
 """
 
 from collections.abc import Iterable, Sequence
@@ -29,12 +29,12 @@ def elbow_arm(
     speed_limits: ArrayLike | None = None,
 ) -> ClosedFormArm:
     """An arm of three revolute links that positions the origin of its flange. Its geometry is
-    measured from the links at q = 0.
+    computed from the links at q = 0.
 
     At q = 0, in base coordinates, axis 1 must lie on the z axis, and axes 2 and 3 must be parallel
     to the y axis. The signs and offsets of the joints follow from the links. `ik` takes points
-    (..., 3) in metres, or the translations of Transforms. ValueError: any other arrangement; the
-    message names the axis.
+    (..., 3) in metres, or the translations of Transforms. Raises ValueError for any other
+    arrangement of the axes; the message names the axis.
     """
     return ClosedFormArm(name, ElbowGeometry(links), limits, speed_limits)
 
@@ -43,9 +43,9 @@ def elbow_arm(
 class ElbowGeometry(Sealed):
     """Three links that position a point, and their inverse (see `elbow_arm`).
 
-    Configuration flags, +1 or -1: whether the point is in front of or behind axis 1 (front is the
-    +x side at q1 = 0), and whether joint 3 is on the positive or negative side of the stretched
-    arm. Source: 000, "Решение обратной задачи".
+    The configuration flags, +1 or -1, say whether the point is in front of axis 1 or behind it (at
+    q1 = 0, the front is the +x side), and whether joint 3 is above or below its value in the fully
+    extended arm. Source: 000, "Решение обратной задачи".
     """
 
     branches = flags(2)
@@ -80,14 +80,12 @@ class ElbowGeometry(Sealed):
         return self.elbow.gap(_point(pose).tolist(), self.branches[row, 0])
 
     def singularities(self, q: Floats) -> dict[str, Bools]:
-        """Which singularities occur at q (..., 3): dict of name -> bool (...); see
-        `Elbow.singularities`.
-        """
+        """Return whether each singularity occurs at q (..., 3); see `Elbow.singularities`."""
         return self.elbow.singularities(q)
 
     def choose_free_joints(self, q: Floats, previous: Floats) -> Floats:
-        """Return rows q (..., 3) with joint 1 as in `previous` wherever the point lies on axis 1
-        and leaves joint 1 free.
+        """Return rows q (..., 3) in which joint 1 has its value from `previous` wherever it is free
+        because the point lies on axis 1.
         """
         on_axis = abs(self.elbow.radius(q)) < FREE * self.elbow.reach
         free = on_axis & (self.elbow.lateral == 0)
@@ -95,15 +93,15 @@ class ElbowGeometry(Sealed):
 
 
 class Elbow(NamedTuple):
-    """Three joints and the point that they carry, measured at q = 0.
+    """The dimensions of three joints and the point that they position, at q = 0.
 
     carried      the name of the point
     sign1 ... 3  +1 or -1: the direction in which a joint turns
     shoulder_x, shoulder_z  the position of axis 2 in the plane of the arm
-    lateral      the point's distance to the left of the plane through axis 1
+    lateral      the point's distance to the left of the arm's plane, which contains axis 1
     upper, fore  the lengths of the links
     upper_angle, fore_angle  their angles above the horizontal at q = 0
-    reach        how far the stretched arm reaches from axis 1
+    reach        how far the fully extended arm reaches from axis 1
     """
 
     carried: str
@@ -121,9 +119,9 @@ class Elbow(NamedTuple):
 
     @classmethod
     def measured(cls, points: Floats, axes: Floats, point: Floats, carried: str) -> "Elbow":
-        """Measure an arm from a point on each of the three axes, the axes, and the carried point,
-        all at q = 0. ValueError: directions other than those in `elbow_arm`, or a link of length
-        zero.
+        """Compute the dimensions from a point on each of the three axes, the directions of the
+        axes, and the carried point, all at q = 0. Raises ValueError if an axis does not have the
+        direction that `elbow_arm` requires, or a link has length zero.
         """
         for number, axis, along in ((1, axes[0], 2), (2, axes[1], 1), (3, axes[2], 1)):
             parallel(number, axis, along)
@@ -153,12 +151,12 @@ class Elbow(NamedTuple):
         )
 
     def solve(self, x: Floats, y: Floats, z: Floats) -> tuple[list[Floats], Pair, Pair]:
-        """Return joints 1 to 3 that bring the point to x, y, z (N,): each (front/back, elbow, N),
-        NaN where there is no solution.
+        """Return the values of joints 1 to 3 that bring the point to x, y, z (N,). Each is an array
+        (front/back, elbow, N) with NaN where there is no solution.
 
-        It also returns the directions that a wrist needs: (cosine, sine) of the arm's plane (2, 1,
-        N) and of the forearm's angle above the horizontal (2, 2, N). Angles are kept as pairs
-        (cosine, sine), so that only the joint values need an arctangent.
+        Also return the directions that a wrist needs, as pairs (cosine, sine): the direction of the
+        arm's plane (2, 1, N) and the angle of the forearm above the horizontal (2, 2, N). Because
+        angles are represented by such pairs, only the joint values need an arctangent.
         """
         a, b, c = self.shoulder_x, self.lateral, self.shoulder_z
         upper, fore = self.upper, self.fore
@@ -173,20 +171,21 @@ class Elbow(NamedTuple):
         tiny = FREE * self.reach
         free = rho2 <= tiny * tiny
         cos1 = np.where(free, front, (x * r + y * b) / rho2)
-        # + 0.0 removes a negative zero, so that half a turn is +pi
+        # adding 0.0 turns -0.0 into 0.0, so that half a turn is +pi
         sin1 = np.where(free, 0.0, (y * r - x * b) / rho2) + 0.0
 
-        # Joints 2 and 3: the triangle of upper arm, forearm and the line from shoulder to point.
-        # With the angle g between the links, 1 + cos g and 1 - cos g say how far the arm is from
-        # folded and from stretched. Both are differences of two squares; computed from a cosine,
-        # the smaller one would lose its digits (equal links, nearly folded). The squares are
-        # written as products because every language rounds products in the same way, but not
-        # powers.
+        # Joints 2 and 3: the upper arm, the forearm and the line from shoulder to point form a
+        # triangle. If g is the angle between the links, 1 + cos g and 1 - cos g show how far the
+        # arm is from being folded and from being fully extended. Both are computed as differences
+        # of two squares; computed from the cosine, the smaller one would lose its significant
+        # digits (equal links, nearly folded). The squares are written as products because all
+        # languages round products in the same way, but not powers.
         u, w = r - a, z - c
         d2, scale = u * u + w * w, 2 * upper * fore
         unfolded = (d2 - (upper - fore) * (upper - fore)) / scale
         unstretched = ((upper + fore) * (upper + fore) - d2) / scale
-        # The rates at which these two change per metre at the borders, times the reach.
+        # The rates of change of these two, per metre, at the boundaries of the workspace, times the
+        # reach.
         inner = 2 * abs(upper - fore) * self.reach / scale
         outer = 2 * (upper + fore) * self.reach / scale
         exists = (unfolded >= -ROUNDING * inner) & (unstretched >= -ROUNDING * outer)
@@ -208,7 +207,9 @@ class Elbow(NamedTuple):
         return [q1, q2, q3], (cos1, sin1), (cos_b, sin_b)
 
     def radius(self, q: Floats) -> Floats:
-        """How far the point is in front of axis 1 at q (..., 3 or more); negative behind it."""
+        """The distance of the point in front of axis 1 at q (..., 3 or more); negative if it is
+        behind.
+        """
         elevation = self.upper_angle + self.sign2 * q[..., 1]
         ahead = self.upper * np.cos(elevation) + self.fore * np.cos(elevation + self.bend(q))
         return self.shoulder_x + ahead
@@ -218,9 +219,9 @@ class Elbow(NamedTuple):
         return self.fore_angle - self.upper_angle + self.sign3 * q[..., 2]
 
     def singularities(self, q: Floats) -> dict[str, Bools]:
-        """The singularities of the posture: dict of name -> bool (...). Shoulder: the point is on
-        axis 1 or as near to it as it can be (within 1e-6 of the reach). Elbow: the arm is stretched
-        or folded (within 1e-6 rad).
+        """Return whether each singularity occurs, as a dict that maps its name to a bool array
+        (...). At "shoulder", the point is on axis 1 or as near to it as it can be (within 1e-6 of
+        the reach). At "elbow", the arm is fully extended or folded (within 1e-6 rad).
         """
         return {
             "shoulder": abs(self.radius(q)) < SINGULAR * self.reach,
@@ -228,12 +229,12 @@ class Elbow(NamedTuple):
         }
 
     def gap(self, point: Sequence[float], front: int) -> Gap:
-        """The border that a single unreachable point (3,) is beyond, on the side `front` (+-1)."""
+        """The reason why a single point (3,) cannot be reached on the side `front` (+1 or -1)."""
         x, y, z = point
         rho2 = x * x + y * y
         r2 = rho2 - self.lateral * self.lateral
-        # A point that is past this border only by rounding counts as on it, so another border must
-        # be the reason.
+        # A point that is beyond this boundary only because of rounding counts as being on it, so
+        # another boundary must be the reason.
         if r2 < -2 * ROUNDING * abs(self.lateral) * self.reach:
             return Gap("axis", abs(self.lateral) - sqrt(rho2), self.carried)
         r = front * sqrt(max(r2, 0.0))
@@ -246,7 +247,7 @@ class Elbow(NamedTuple):
 
 
 def parallel(number: int, axis: Floats, along: int) -> None:
-    """Raise ValueError unless the axis is parallel to x, y or z (along 0, 1, 2)."""
+    """Raise ValueError unless the axis is parallel to x, y or z (`along` is 0, 1 or 2)."""
     if abs(abs(axis[along]) - 1) > 1e-9:
         wanted = f"wanted axis {number} parallel to {'xyz'[along]}"
         raise ValueError(f"links: {wanted}, got {axis} at q = 0")
@@ -261,8 +262,8 @@ def rotated(cosine: Any, sine: Any, angle: float) -> Pair:
 
 
 def _unit(x: Floats, y: Floats) -> Pair:
-    """(x, y) normalised to length 1, or (1, 0) for length zero: joint 2 is free where equal links
-    are folded.
+    """Return (x, y) scaled to length 1, or (1, 0) if its length is zero: joint 2 is free where
+    equal links are folded.
     """
     length = np.sqrt(x * x + y * y)
     none = length == 0

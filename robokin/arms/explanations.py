@@ -1,12 +1,12 @@
-"""All that `explain` (in `branches`) can say, kept here so that a page can use it too.
+"""All sentences that `explain` (in `branches.py`) can return. A page uses them, too.
 
-The facts are in braces: {what} is the point to be positioned, {gap} is a length with its unit,
-{degrees} an angle; then {row}, {flags}, {reason}, {hint}, {facts}, {joint}, {value}, {over} and
-{limit}.
+The facts are in braces. {what} is the point to be positioned, {gap} a length with its unit,
+{degrees} an angle. The others are {row}, {flags}, {reason}, {hint}, {facts}, {joint}, {value},
+{over} and {limit}.
 """
 
 SENTENCES = {
-    # a whole sentence
+    # whole sentences
     "missing": "Row {row} ({flags}) does not exist: {reason}{hint}",
     "usable": "Row {row} ({flags}) is usable: it is inside every limit and not singular.",
     "usable but": "Row {row} ({flags}) is usable, but {facts}.",
@@ -19,7 +19,7 @@ SENTENCES = {
     "base": "{what} is {gap} too near to the base",
     "plane": "{what} is {gap} off the plane z = 0",
     "tilted": "the tool is tilted by {degrees:.1f}°, and a SCARA's tool stays upright",
-    # a joint past its limit
+    # a joint that exceeds its limit
     "past": "joint {joint} is at {value}, {over} past its limit of {limit}",
     # singularities
     "shoulder": "{what} is as near to axis 1 as it can be (shoulder singularity), where the front "

@@ -20,9 +20,10 @@ from ..units import in_words
 from .explanations import SENTENCES
 from .link import Link
 
-ROUNDING = 1e-12  # a point past a border by no more than this counts as on it
-STRAIGHT = 1e-14  # an arm this close to being stretched or folded has two equal elbow rows
-# if the point is nearer to axis 1 than this, the angle of joint 1 is noise: the joint is free
+ROUNDING = 1e-12  # a point beyond a boundary by no more than this counts as on it
+STRAIGHT = 1e-14  # an arm this close to fully extended or folded has two equal elbow rows
+# if the point is nearer to axis 1 than this, joint 1 counts as free, because its angle is dominated
+# by rounding errors
 FREE = 1e-13
 SINGULAR = 1e-6  # rad, or fraction of reach: a posture this near a singularity counts as singular
 UPRIGHT = 1e-9  # rad; a tool tilted by less than this counts as upright
@@ -31,11 +32,12 @@ UPRIGHT = 1e-9  # rad; a tool tilted by less than this counts as upright
 class Geometry(Protocol):
     """The attributes of every geometry.
 
-    links    base to flange
-    target   the type of an arm's targets: Transform (position and orientation),
-             ScaraPose (position and angle) or np.ndarray (a point)
-    reach    m; the greatest distance of the carried point from axis 1: tolerances are fractions of
-             it, and it makes the linear and angular rows of a Jacobian comparable
+    links    the links, from base to flange
+    target   the type of an arm's targets: Transform (position and orientation), ScaraPose (position
+             and angle) or np.ndarray (a point)
+    reach    the maximum distance of the carried point from axis 1, in metres; tolerances are
+             fractions of it, and dividing by it makes the linear and angular rows of a Jacobian
+             comparable
     """
 
     @property
@@ -49,7 +51,7 @@ class Geometry(Protocol):
 class ClosedForm(Geometry, Protocol):
     """The additional attributes of a geometry with a closed-form inverse.
 
-    branches   (rows, flags) of +-1, read-only: the configuration of each row
+    branches   a read-only array (rows, flags) of +1 and -1: the configuration of each row
     carried    the point that the first joints position: "wrist centre", "point", ...
 
     The names that `gap` and `singularities` return are keys of `explanations.SENTENCES`.
@@ -65,16 +67,18 @@ class ClosedForm(Geometry, Protocol):
         """See `ClosedFormArm.ik`."""
 
     def gap(self, pose: Any, row: int) -> "Gap":
-        """The reason why a single pose has no solution in this row. Called only where there is
-        none.
+        """The reason why a single pose has no solution in this row. This method is called only if
+        there is no solution.
         """
 
     def singularities(self, q: Floats) -> dict[str, Bools]:
-        """Which singularities occur at q (..., n): dict of name -> bool (...)."""
+        """Return whether each singularity occurs at q (..., n), as a dict that maps its name to a
+        bool array (...).
+        """
 
     def choose_free_joints(self, q: Floats, previous: Floats) -> Floats:
-        """Return rows q (..., n) in which the joints that a singularity leaves free turn least from
-        `previous` (..., n).
+        """Return rows q (..., n) in which the joints that a singularity leaves free turn as little
+        as possible from `previous` (..., n).
         """
 
 
@@ -88,9 +92,10 @@ class Chain(Sealed):
 
     @classmethod
     def measured(cls, links: tuple[Link, ...], limits: Floats) -> "Chain":
-        """Measure links with the limits of their joints (n, 2). The reach is the sum of the lengths
-        and strokes after joint 1; of a part that does not move relative to axis 1, only the
-        distance from the axis counts. ValueError: a flange that never leaves axis 1.
+        """Make a chain of links, and compute its reach from the limits of the joints (n, 2). The
+        reach is the sum of the lengths and strokes after joint 1; for a part whose distance from
+        axis 1 is fixed, only that distance counts. Raises ValueError if the flange never leaves
+        axis 1.
         """
         first, *others = links
         start = first.after @ others[0].before if others else first.after
@@ -106,12 +111,12 @@ class Chain(Sealed):
 
 
 class Gap(NamedTuple):
-    """The reason why a row does not exist: the border that the target is beyond, and by how much.
+    """The reason why a row does not exist: the boundary that the target is beyond, and by how much.
 
     kind     the key of a sentence in `explanations.SENTENCES`
-    metres   how far the target is beyond the border; 0 where the reason is not a length
+    metres   how far the target is beyond the boundary; 0 if the reason is not a length
     what     the point to be positioned: "the wrist centre", "the target"
-    degrees  the tilt of the tool, where that is the reason
+    degrees  the tilt of the tool, if that is the reason
     """
 
     kind: str
@@ -127,8 +132,8 @@ class Gap(NamedTuple):
 
 
 def flags(count: int) -> Ints:
-    """All configurations with `count` flags, (2**count, count) of +1 and -1, read-only. The first
-    flag changes slowest.
+    """All configurations with `count` flags, as a read-only array (2**count, count) of +1 and -1.
+    The first flag changes slowest.
     """
     rows = np.array(list(product((1, -1), repeat=count)))
     rows.flags.writeable = False
@@ -136,13 +141,15 @@ def flags(count: int) -> Ints:
 
 
 def worst(gaps: dict[str, Any], what: str) -> Gap:
-    """The border with the largest excess, from a dict of name -> metres beyond it."""
+    """The boundary that the target is farthest beyond. `gaps` maps boundaries to excesses in
+    metres.
+    """
     kind = max(gaps, key=lambda name: float(gaps[name]))
     return Gap(kind, max(float(gaps[kind]), 0.0), what)
 
 
 def coordinates(point: Any) -> tuple[Floats, Floats, Floats]:
-    """x, y, z of points (..., 2) or (..., 3), or of the origins of Transforms."""
+    """The coordinates x, y, z of points (..., 2) or (..., 3), or of the origins of Transforms."""
     place = point.translation if isinstance(point, Transform) else floats(point, "point")
     if place.ndim == 0 or place.shape[-1] not in (2, 3):
         raise ValueError(f"point: wanted shape (..., 2) or (..., 3), got {place.shape}")
@@ -151,7 +158,7 @@ def coordinates(point: Any) -> tuple[Floats, Floats, Floats]:
 
 
 def one_point(point: Any) -> Any:
-    """Return the point. ValueError: a batch of points."""
+    """Return the point. Raises ValueError if it is a batch of points."""
     x = coordinates(point)[0]
     if x.ndim:
         raise ValueError(f"point: wanted a single point, got a batch of shape {x.shape}")
@@ -160,7 +167,7 @@ def one_point(point: Any) -> Any:
 
 def distance(x: Floats, y: Floats) -> Floats:
     """The length of (x, y), like np.hypot, but computed with only + - * / and sqrt. Every machine
-    and language rounds these in the same way, so they all agree on what is out of reach.
+    and language rounds these in the same way, so they all agree on which points are out of reach.
     """
     scale = np.maximum(np.maximum(abs(x), abs(y)), 1e-300)
     x, y = x / scale, y / scale
@@ -168,13 +175,13 @@ def distance(x: Floats, y: Floats) -> Floats:
 
 
 def two_levers(upper: float, fore: float, d: Floats) -> tuple[Floats, Floats, Bools]:
-    """The triangle of two links whose ends are d (...) apart: the angle between the first link and
-    the line between the ends, the angle from the first to the second link, both in [0, pi], and
-    whether the triangle exists.
+    """Solve the triangle of two links whose ends are d (...) apart. Return the angle between the
+    first link and the line between the ends, the angle from the first to the second link, both in
+    [0, pi], and whether the triangle exists.
 
-    It is computed with half angles. The four factors are those of Heron's formula; each is a
-    difference, never a difference of squares, so that no digits are lost where equal links fold
-    (the law of cosines loses half of them).
+    It uses half-angle formulas. The four factors are those of Heron's formula; each is a sum or
+    difference of lengths, never of squares, so that no digits are lost where equal links fold (the
+    law of cosines loses half of them).
     """
     slack = ROUNDING * (upper + fore)
     stretch, fold = upper + fore - d, d - abs(upper - fore)

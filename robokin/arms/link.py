@@ -20,12 +20,12 @@ BASE: Frame = ((1.0, 0.0, 0.0, 0.0), (0.0, 0.0, 0.0))
 
 @dataclass(frozen=True, init=False, eq=False)
 class Link(Sealed):
-    """One joint between two constant transforms: the frame after it is
-    `frame @ before @ motion @ after`.
+    """One joint between two constant transforms: the frame after the link is `frame @ before @
+    motion @ after`.
 
     The motion is a rotation about the unit vector `axis` or, if `prismatic`, a translation along
     it. A Denavit-Hartenberg row has its constant part after the joint; listing 1 of source 001 has
-    it before. ValueError: a batch of transforms, or an axis that is not a single unit vector.
+    it before. Raises ValueError if a transform is a batch or the axis is not a single unit vector.
     """
 
     before: Transform
@@ -53,9 +53,9 @@ class Link(Sealed):
         vars(self)["_parts"] = _Still.of(before), _coordinate(direction), _Still.of(after)
 
     def _carry(self, frame: Frame, q: Any) -> tuple[Frame, Frame]:
-        """Return the frame of the joint and the frame after this link, from the frame before it and
-        q (...) in radians, or metres if prismatic. All frames are components; the first one is
-        `BASE`.
+        """Return the frame of the joint and the frame after this link, given the frame before the
+        link and q (...), in radians, or in metres if prismatic. All frames are given as components;
+        the first one is `BASE`.
         """
         before, (axis, sign), after = self._parts
         joint = rotation, origin = before.step(frame)
@@ -82,11 +82,13 @@ def dh_links(
     is A = Rot(z, theta) Trans(0, 0, d) Trans(a, 0, 0) Rot(x, alpha).
 
     prismatic  one bool or (n,): q is added to `d` where it is True, to `theta` where it is False
-    modified   the table is in Craig's form: a row has a and alpha of the link before its joint, and
-               A = Rot(x, alpha) Trans(a, 0, 0) Rot(z, theta) Trans(0, 0, d)
+    modified   True if the table follows Craig's convention, in which a row has a and alpha of the
+               link before its joint, and A = Rot(x, alpha) Trans(a, 0, 0) Rot(z, theta) Trans(0, 0,
+               d)
 
     Source: 000, "Обзор источников"; 004, table 1; Craig, Introduction to Robotics, section 3.5.
-    ValueError: columns with different lengths, or a `prismatic` that is not True or False.
+    Raises ValueError if the columns have different lengths or `prismatic` is neither True nor
+    False.
 
     >>> from robokin import dh_links
     >>> len(dh_links(a=[0, 0.4], alpha=[0.5 * np.pi, 0], d=0))
@@ -113,7 +115,9 @@ def dh_links(
 
 
 def chain(links: Iterable[Link]) -> tuple[Link, ...]:
-    """Return `links` as a tuple. TypeError: an item that is not a Link. ValueError: no links."""
+    """Return `links` as a tuple. Raises TypeError if an item is not a Link, and ValueError if there
+    are no links.
+    """
     links = tuple(links) if isinstance(links, (list, tuple)) else (instance(links, tuple, "links"))
     if not links:
         raise ValueError("links: wanted at least one Link, got none")
@@ -121,8 +125,8 @@ def chain(links: Iterable[Link]) -> tuple[Link, ...]:
 
 
 def home(links: Sequence[Link]) -> tuple[Floats, Floats, Transform]:
-    """A point on each joint's axis (n, 3), the axes (n, 3) and the flange, in base coordinates at
-    q = 0.
+    """A point on each joint's axis (n, 3), the directions of the axes (n, 3), and the pose of the
+    flange, in base coordinates at q = 0.
     """
     frame, points, axes = BASE, [], []
     for link in links:
@@ -134,7 +138,7 @@ def home(links: Sequence[Link]) -> tuple[Floats, Floats, Transform]:
 
 class _Still(NamedTuple):
     """A constant transform in as few steps as possible: translations (axis, length) along
-    coordinate axes, then at most one rotation: about a coordinate axis or, for any other axis, as a
+    coordinate axes, then at most one rotation, which is about a coordinate axis or given by a
     quaternion w, x, y, z.
     """
 
@@ -149,7 +153,7 @@ class _Still(NamedTuple):
         return cls(shifts, tuple(k for k in range(3) if turn[k + 1]), turn)
 
     def step(self, frame: Frame) -> Frame:
-        """The frame after the transform."""
+        """The frame after this transform."""
         rotation, origin = frame
         for k, length in self.shifts:
             shift = along(rotation, k, length)
@@ -162,6 +166,6 @@ class _Still(NamedTuple):
 
 
 def _coordinate(axis: Floats) -> tuple[int | None, float]:
-    """The coordinate axis (0, 1, 2) parallel to this one, and the sign; None if there is none."""
+    """The index of the coordinate axis parallel to `axis` (None if there is none) and the sign."""
     k = int(abs(axis).argmax())
     return (k, float(axis[k])) if abs(axis[k]) == 1 else (None, 1.0)

@@ -17,23 +17,23 @@ from .geometry import ROUNDING, coordinates, distance, one_point
 from .link import Link
 
 Z = np.array([0.0, 0.0, 1.0])
-MOST_ROWS = 2_000_000  # greatest number of rows of a table; they take one or two seconds
-PORTION = 1000  # number of tasks computed together if each compares hundreds of postures
+MOST_ROWS = 2_000_000  # maximum number of rows of a table; computing them takes one or two seconds
+PORTION = 1000  # number of tasks computed at once if each of them compares hundreds of postures
 
 
 def three_lever(L: ArrayLike) -> "ThreeLeverArm":
-    """The arm of source 003 with levers of length L in metres, or of the three lengths (3,) of OB,
-    BA, AK; q = (gamma, beta, alpha), each from 0 to 180 degrees.
+    """The arm of source 003. L is the length of all its levers in metres, or the three lengths (3,)
+    of OB, BA and AK. q is (gamma, beta, alpha), each from 0 to 180 degrees.
 
     O      the base, at the origin
     gamma  the angle of lever OB from the +x axis, counter-clockwise
     beta   the interior angle at B; at 180 degrees OB and BA are in line
     alpha  the interior angle at A; at 180 degrees BA and AK are in line
-    K      the gripper, the flange's origin; below 180 degrees the chain bends clockwise
-           towards it
+    K      the gripper, at the origin of the flange; where beta or alpha is below 180 degrees, the
+           chain bends clockwise on its way from O to K
 
     Source: 003, III.1.1, figures 15 and 16, for equal levers; II.2 says that they may differ.
-    ValueError: L is neither one positive number nor three.
+    Raises ValueError if L is neither one positive number nor three.
 
     >>> from robokin import deg, three_lever
     >>> three_lever((0.9, 1.1, 0.6)).points([90 * deg, 90 * deg, 180 * deg]).round(3) + 0.0
@@ -51,9 +51,9 @@ class ThreeLeverGeometry(Sealed):
     listed row by row.
 
     levers  the lengths of OB, BA, AK
-    lever   their mean, the unit of lengths such as tolerances and the document's L/7
-    inner   |OB - BA| + AK, one lever length if the levers are equal; a point must be farther away
-            than this
+    lever   their mean, the unit for lengths such as tolerances and the document's L/7
+    inner   |OB - BA| + AK, which is one lever length if the levers are equal; a reachable point is
+            farther than this from the base
     """
 
     target = np.ndarray
@@ -86,12 +86,13 @@ class ThreeLeverArm(Arm):
     """An arm of three levers (see `three_lever`). It reaches a point K in a family of postures, one
     for each value of the free angle alpha; `family` replaces `ik`.
 
-    The arm reaches the points with |OB - BA| + AK < KO <= OB + BA + AK; for levers of one length L
-    these are L < KO <= 3 L. In all their postures B is on the counter-clockwise side of the line
-    OK; nearer points also have postures on the other side, and so a second family. The methods take
-    points (..., 2), points (..., 3) with z = 0, or Transforms. With `limited` they also keep gamma
-    within 0 to 180 degrees, which the document requires but does not test (errata S3-g). gamma is
-    not wrapped: it lies between the direction of K and half a turn more.
+    The arm reaches the points with |OB - BA| + AK < KO <= OB + BA + AK; if all levers have the
+    length L, this is L < KO <= 3 L. In all postures for such a point, B is on the counter-clockwise
+    side of the line OK. Nearer points also have postures on the other side, and therefore a second
+    family. The methods take points (..., 2), points (..., 3) with z = 0, or Transforms. With
+    `limited=True`, they also keep gamma between 0 and 180 degrees, which the document requires but
+    does not check (errata S3-g). gamma is not wrapped: it lies between the direction of K and that
+    direction plus half a turn.
     """
 
     geometry: ThreeLeverGeometry
@@ -118,11 +119,12 @@ class ThreeLeverArm(Arm):
         return np.cumsum(steps, axis=-2)
 
     def alpha_range(self, point: Any, limited: bool = True) -> tuple[Floats, Floats]:
-        """The lowest and the highest alpha that reach the point, each (...); NaN where none does.
+        """The lowest and the highest alpha with which the arm reaches the point, each (...); NaN if
+        it is out of reach.
 
-        At the lowest alpha, beta is 180 degrees (or gamma is 0; or alpha is 0, which needs a lever
-        AK shorter than both others). The highest alpha is 180 degrees, or gamma is 180 degrees
-        there, since gamma increases with alpha along the family. Source: 003, (2) and (3), figure
+        At the lowest alpha, beta is 180 degrees, gamma is 0, or alpha itself is 0 (which requires
+        that AK is shorter than both other levers). At the highest alpha, alpha or gamma is 180
+        degrees, since gamma increases with alpha along the family. Source: 003, (2) and (3), figure
         17.
         """
         KO, phi = self._polar(point)
@@ -139,11 +141,11 @@ class ThreeLeverArm(Arm):
         """The posture that reaches the point with the free angle alpha: point (...), alpha (...) ->
         q (..., 3).
 
-        NaN where there is none (see `alpha_range`). `within(arm, q)` shows which angles lie between
-        0 and 180 degrees: alpha and beta always do, gamma often does not. For one point and many
-        alphas: `family(point, alphas)`; for many points and many alphas: `family(points[:, None],
-        alphas)`. Source: 003, (4)-(14) and table 3, with errata S3-a (the direction of K) and S3-d
-        (its last row) corrected.
+        The result is NaN where there is none (see `alpha_range`). `within(arm, q)` shows which
+        angles lie between 0 and 180 degrees: alpha and beta always do, gamma often does not. For
+        one point and many alphas: `family(point, alphas)`; for many points and many alphas:
+        `family(points[:, None], alphas)`. Source: 003, (4)-(14) and table 3, with errata S3-a (the
+        direction of K) and S3-d (its last row) corrected.
         """
         (KO, phi), angles = self._polar(point), floats(alpha, "alpha", finite=False)
         broadcast("point and alpha", KO.shape, angles.shape)
@@ -153,9 +155,10 @@ class ThreeLeverArm(Arm):
         """Table 3 of the document: the postures for one point at alpha_min, alpha_min + step, ...
         up to 180 degrees.
 
-        Returns (rows, 3), with no rows if the point is out of reach. `limited` drops the rows with
-        gamma outside 0 to 180 degrees. ValueError: a step that would give more than two million
-        rows. Source: 003, III.1.3 (step 0.01 degrees), paper 2 (0.001); errata S3-e.
+        Returns an array (rows, 3), with no rows if the point is out of reach. With `limited=True`,
+        rows with gamma outside 0 to 180 degrees are left out. Raises ValueError if the step would
+        give more than two million rows. Source: 003, III.1.3 (step 0.01 degrees), paper 2 (0.001);
+        errata S3-e.
         """
         low = self.alpha_range(one_point(point), limited=False)[0]
         width = positive(step, "step", "one positive angle in radians")
@@ -173,9 +176,9 @@ class ThreeLeverArm(Arm):
         """The document's choice: the first row of `table` with the smallest S, the sum of the
         absolute angle changes.
 
-        Returns (q, S) for one point and one posture `previous` (3,); NaN if there is no row. S, in
-        radians, is a substitute for the motors' energy, which the document does not model (errata
-        S3-i). Source: 003, III.4.1, figure 29.
+        Returns (q, S) for one point and one posture `previous` (3,); both are NaN if there is no
+        row. S, in radians, is a substitute for the motors' energy, which the document does not
+        model (errata S3-i). Source: 003, III.4.1, figure 29.
         """
         before, rows = self._previous(previous), self.table(point, step, limited)
         if before.ndim != 1:
@@ -190,11 +193,11 @@ class ThreeLeverArm(Arm):
         """The posture at the point that exactly minimises S = |d alpha| + |d beta| + |d gamma|.
 
         Returns (q, S): points (...) and previous (..., 3) -> (..., 3) and (...), NaN where the
-        point is out of reach. As a function of alpha, S has a kink wherever an angle keeps its
-        previous value. Between the kinks and the ends its minimum can only be where a sum such as
-        alpha + beta - gamma is stationary. So we compare a few postures, without a step size
-        (errata S3-h: in 60 random tasks the sweep with steps of 0.01 degrees ends up to 0.0062
-        degrees above the minimum).
+        point is out of reach. As a function of alpha, S has a kink wherever an angle equals its
+        previous value. Between the kinks and the ends, the minimum can only be where a sum such as
+        alpha + beta - gamma is stationary. It is therefore enough to compare a few postures, and no
+        step size is needed (errata S3-h: in 60 random tasks, the sweep with steps of 0.01 degrees
+        gives an S up to 0.0062 degrees above the minimum).
         """
         a, b, c = self.geometry.levers
         before = self._previous(previous)
@@ -204,8 +207,8 @@ class ThreeLeverArm(Arm):
         gamma0, beta0, alpha0 = np.moveaxis(np.broadcast_to(before, (*shape, 3)), -1, 0)
         low, high = (np.broadcast_to(end, shape) for end in self.alpha_range(point, limited))
 
-        # If beta keeps its previous value, the distance OA is fixed, and A is on either side of the
-        # line OK.
+        # If beta keeps its previous value, the distance OA is fixed, and A is on one side or the
+        # other of the line OK.
         BAO, at_A = _beside(b, a, beta0), _angle(_across(a, b, beta0), c, KO)
         alphas = np.stack(
             [
@@ -231,8 +234,8 @@ class ThreeLeverArm(Arm):
         )
 
     def out_of_reach(self, point: Any) -> str:
-        """Say why a single point is out of reach; "" if it is not. Source: 003, III.1.2: L < KO < 3
-        L.
+        """Return the reason why a single point is out of reach, or "" if it is within reach.
+        Source: 003, III.1.2: L < KO < 3 L.
         """
         x, y, z = coordinates(one_point(point))
         (a, b, c), inner, reach = self.geometry.levers, self.geometry.inner, self.reach
@@ -270,7 +273,7 @@ class ThreeLeverArm(Arm):
         return np.where(reached, KO, np.nan), np.where(reached, np.arctan2(y, x), np.nan)
 
     def _lowest(self, KO: Floats) -> Floats:
-        """The alpha at which O, B and A are in line, or 0 if the levers need not stretch."""
+        """The alpha at which O, B and A are in line, or 0 if K is too near for that."""
         a, b, c = self.geometry.levers
         return np.where(KO <= a + b - c, 0.0, _angle(c, a + b, KO))
 
@@ -302,9 +305,10 @@ class ThreeLeverArm(Arm):
         return np.where(exists, 2 * np.arcsin(np.minimum(half, 1)), np.nan)
 
     def _bottom(self, KO: Floats, low: Floats, high: Floats) -> Floats:
-        """For equal levers, the alpha between low and high with the least alpha + beta - gamma; no
-        other sum has a minimum between its ends. Each of six rounds takes the best of 33 samples
-        and its neighbours. Half of the digits of alpha are enough, since the sum is flat there.
+        """For equal levers, the alpha between low and high that minimises alpha + beta - gamma; the
+        other sums have no minimum between the ends. Each of six rounds takes 33 samples and narrows
+        the interval to the neighbours of the best one. Half of the digits of alpha are enough,
+        since the sum is flat at its minimum.
         """
         for _ in range(6):
             alphas = low[..., None] + (high - low)[..., None] * np.linspace(0, 1, 33)
@@ -347,14 +351,14 @@ class ThreeLeverArm(Arm):
         """
         a, b, c = self.geometry.levers
         gamma, beta, alpha = np.moveaxis(self._posture(KO, 0.0, alpha), -1, 0)
-        height = a * np.sin(gamma)  # height of B above the line OK
+        height = a * np.sin(gamma)  # height of B above the line from O to K
         changes = [b * c * np.sin(alpha), KO * (b * np.sin(gamma + beta) - height), KO * height]
         return np.stack([sum(changes) - 2 * change for change in changes], axis=-1)
 
 
 def _across(a: float, b: float, angle: Floats) -> Floats:
-    """The third side of a triangle from two sides a and b and the angle between them. For equal
-    sides it is the document's 2 a sin(angle / 2) to the last bit.
+    """The third side of a triangle with two sides a and b and the given angle between them. For
+    equal sides, the result equals the document's 2 a sin(angle / 2) to the last bit.
     """
     chord = 2 * np.sqrt(a * b) * np.sin(angle / 2)
     return distance(a - b + 0 * chord, chord)
@@ -362,16 +366,16 @@ def _across(a: float, b: float, angle: Floats) -> Floats:
 
 def _beside(a: float, b: float, angle: Floats) -> Floats:
     """The angle between the side a and the third side of the same triangle. The law of tangents
-    keeps all digits if the triangle is flat.
+    loses no digits if the triangle is flat.
     """
     half = angle / 2
     return (np.pi - angle) / 2 + np.arctan2((b - a) * np.cos(half), (b + a) * np.sin(half))
 
 
 def _angle(a: Floats | float, b: Floats | float, c: Floats | float) -> Floats:
-    """The angle between the sides a and b of a triangle, opposite c, NaN if there is no triangle.
-    It uses the half-angle form of the law of cosines, since the document's arccos loses half of the
-    digits if the triangle is flat.
+    """The angle between the sides a and b of a triangle, opposite c; NaN if there is no such
+    triangle. We use the half-angle form of the law of cosines, since the document's arccos loses
+    half of the digits if the triangle is flat.
     """
     with np.errstate(invalid="ignore"):
         beside, around = _spare(c, b, a) * _spare(c, a, b), _spare(a, b, c) * (a + b + c)
@@ -383,8 +387,8 @@ def _angle(a: Floats | float, b: Floats | float, c: Floats | float) -> Floats:
 
 
 def _spare(a: Floats | float, b: Floats | float, c: Floats | float) -> Any:
-    """How much longer two sides together are than the third, rounded in the same way for every
-    angle, so that all angles of a nearly flat triangle belong to the same triangle and the chain
-    closes.
+    """The excess of the sides a and b together over the side c. It is rounded in the same way for
+    every angle, so that all angles of a nearly flat triangle belong to the same triangle and the
+    chain closes.
     """
     return np.maximum(a, b) - c + np.minimum(a, b)

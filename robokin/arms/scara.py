@@ -1,5 +1,5 @@
-"""SCARA arms: two links with parallel axes, a rotating tool and a vertical stroke, with two
-closed-form solutions.
+"""SCARA arms, which have two links with parallel axes, a rotating tool and a vertical stroke. Their
+inverse has two closed-form solutions.
 """
 
 from dataclasses import dataclass, field
@@ -25,9 +25,9 @@ class ScaraPose(Batch):
     vertical. The arrays are read-only copies.
 
     The angle is in radians and not wrapped: from 0 to pi is half a turn to the left, from 0 to -pi
-    half a turn to the right, and 3 pi is one and a half turns. A rotation cannot distinguish them
-    (errata S1-t). ValueError: wrong shapes, or numbers that are not finite. Source: 001, listings 4
-    and 12.
+    half a turn to the right, and 3 pi is one and a half turns. As rotations, these are all the same
+    (errata S1-t). Raises ValueError if a shape is wrong or a number is not finite. Source: 001,
+    listings 4 and 12.
 
     >>> from robokin import ScaraPose
     >>> ScaraPose((0.2, 0.3, 0.1), 0.0).lerp(ScaraPose((0.4, 0.1, 0.1), 3.0), 0.5)
@@ -63,7 +63,7 @@ class ScaraPose(Batch):
         return ScaraPose(position, self.angle + (goal.angle - self.angle) * share)
 
     def as_transform(self) -> Transform:
-        """The flange pose: the tool's z axis keeps pointing up (errata S1-r)."""
+        """The pose of the flange. The tool's z axis always points up (errata S1-r)."""
         return Transform(Quaternion._turn(self.angle, Z), self.position)
 
     def __repr__(self) -> str:
@@ -80,20 +80,20 @@ def scara_arm(
     limits: ArrayLike,
     speed_limits: ArrayLike | None = None,
 ) -> ClosedFormArm:
-    """A SCARA: joints 1 to 3 turn about vertical axes, joint 4 lowers the tool from `height`.
-    Lengths are in metres.
+    """A SCARA arm. Joints 1 to 3 turn about vertical axes, and joint 4 lowers the tool from
+    `height`. Lengths are in metres.
 
-    At q = 0 the arm is stretched along x with the tool at `height`. `ik` takes a ScaraPose or a
-    Transform. Source: 001, listings 4 and 12. ValueError: a link whose length is not one positive
-    number.
+    At q = 0, the arm is fully extended along x, with the tool at `height`. `ik` takes a ScaraPose
+    or a Transform. Source: 001, listings 4 and 12. Raises ValueError if the length of a link is not
+    one positive number.
     """
     return ClosedFormArm(name, ScaraGeometry(height, upper, fore), limits, speed_limits)
 
 
 @dataclass(frozen=True, repr=False, eq=False)
 class ScaraGeometry(Sealed):
-    """The links of a SCARA and their inverse (see `scara_arm`). Configuration flag: the sign of
-    joint 2. Angles in [-pi, pi].
+    """The links of a SCARA and their inverse (see `scara_arm`). The configuration flag is the sign
+    of joint 2. Angles are in [-pi, pi].
 
     Source: 001, listing 4, with errata S1-o (the other elbow, rounding) corrected.
     """
@@ -119,8 +119,8 @@ class ScaraGeometry(Sealed):
         vars(self).update(height=level, upper=upper, fore=fore, reach=upper + fore, links=links)
 
     def ik(self, pose: Any) -> Floats:
-        """See `ClosedFormArm.ik`: ScaraPose or Transform of shape (...) -> (..., 2, 4). A tilted
-        tool is out of reach.
+        """See `ClosedFormArm.ik`: ScaraPose or Transform of shape (...) -> (..., 2, 4). A pose with
+        a tilted tool is out of reach.
         """
         position, angle, tilt = _parts(pose)
         x, y, z = components(position[..., None, :])
@@ -141,12 +141,12 @@ class ScaraGeometry(Sealed):
         return worst({"stretched": r - borders[0], "axis": borders[1] - r}, self.carried)
 
     def singularities(self, q: Floats) -> dict[str, Bools]:
-        """Which singularities occur at q (..., 4): dict of name -> bool (...), within 1e-6 rad."""
+        """Return whether each singularity occurs at q (..., 4), within 1e-6 rad."""
         return {"elbow": abs(np.sin(q[..., 1])) < SINGULAR}
 
     def choose_free_joints(self, q: Floats, previous: Floats) -> Floats:
-        """Return rows q (..., 4) unchanged, except where equal links are folded onto axis 1: there
-        joint 1 is as in `previous`, and joint 3 compensates.
+        """Return rows q (..., 4) unchanged, except where equal links are folded onto axis 1. There,
+        joint 1 has its value from `previous`, and joint 3 compensates.
         """
         equal = abs(self.upper - self.fore) <= FREE * self.reach
         free = (abs(np.cos(q[..., 1] / 2)) < FREE) & equal
@@ -157,7 +157,7 @@ class ScaraGeometry(Sealed):
 
 
 def _parts(pose: Any) -> tuple[Floats, Floats, Floats]:
-    """Position, angle about the vertical, and tilt away from it in radians."""
+    """The position, the angle about the vertical, and the tilt from the vertical, in radians."""
     if isinstance(pose, ScaraPose):
         return pose.position, pose.angle, np.zeros(pose.shape)
     hint = " (a SCARA takes a ScaraPose or a Transform)"

@@ -21,9 +21,10 @@ from .elbow import Elbow, parallel, rotated
 from .geometry import SINGULAR, Gap, flags
 from .link import Link, chain, home
 
-FREE = 1e-13  # below this sine of joint 5 the angle of joint 4 is noise, and the joint is free
-# below this sine of joint 5, rounding errors in the pose can turn joint 4: `choose_free_joints`
-# then chooses its angle
+# if |sin q5| is below this, rounding errors dominate the angle of joint 4, which counts as free
+FREE = 1e-13
+# if |sin q5| is below this, rounding errors in the pose can change joint 4 noticeably, and
+# `choose_free_joints` chooses its angle
 NOISY = 1e-9
 
 
@@ -33,13 +34,13 @@ def spherical_wrist(
     limits: ArrayLike,
     speed_limits: ArrayLike | None = None,
 ) -> ClosedFormArm:
-    """An arm of six revolute links with a spherical wrist. Its geometry is measured from the links
+    """An arm of six revolute links with a spherical wrist. Its geometry is computed from the links
     at q = 0.
 
     At q = 0, in base coordinates, axis 1 must lie on the z axis, axes 2, 3 and 5 must be parallel
     to the y axis, and axes 4 to 6 must meet at one point, with 4 parallel to 6. The signs and
-    offsets of the joints follow from the links. ValueError: any other arrangement; the message
-    names the axis.
+    offsets of the joints follow from the links. Raises ValueError for any other arrangement of the
+    axes; the message names the axis.
     """
     return ClosedFormArm(name, SphericalWristGeometry(links), limits, speed_limits)
 
@@ -48,10 +49,10 @@ def spherical_wrist(
 class SphericalWristGeometry(Sealed):
     """Six links with a spherical wrist, and their inverse (see `spherical_wrist`).
 
-    Configuration flags, +1 or -1: whether the wrist centre is in front of or behind axis 1 (front
-    is the +x side at q1 = 0), whether joint 3 is on the positive or negative side of the stretched
-    arm, and the sign of joint 5. Source: 001, listing 1, with errata S1-c (obtuse shoulder) and
-    S1-d (singular wrist) corrected; 004, section 3.
+    The configuration flags, +1 or -1, say whether the wrist centre is in front of axis 1 or behind
+    it (at q1 = 0, the front is the +x side), whether joint 3 is above or below its value in the
+    fully extended arm, and which sign joint 5 has. Source: 001, listing 1, with errata S1-c (obtuse
+    shoulder) and S1-d (singular wrist) corrected; 004, section 3.
     """
 
     branches = flags(3)
@@ -81,8 +82,8 @@ class SphericalWristGeometry(Sealed):
         return np.moveaxis(q.reshape(6, 8, *pose.shape), (0, 1), (-1, -2))
 
     def _solve(self, rotation: Sequence[Floats], origin: Sequence[Floats]) -> list[Any]:
-        """The six joint values for poses (N,), for front/back and elbow (2, 2, N); a pair of values
-        where the two wrist solutions differ.
+        """The six joint values for poses (N,). Each is a pair of arrays (front/back, elbow, N), one
+        for each of the two wrist solutions.
         """
         wrist = self.wrist
 
@@ -90,8 +91,8 @@ class SphericalWristGeometry(Sealed):
         tool, centre = wrist.at(rotation, origin)
         first, (cos1, sin1), fore = self.elbow.solve(*centre)
 
-        # Joints 4 to 6 orient the wrist's frame at the tool relative to the forearm, whose axis 4
-        # has a forward component ce and an upward component se.
+        # Joints 4 to 6 orient the wrist's frame, which is fixed to the tool, relative to the
+        # forearm. Axis 4, on the forearm, has a forward component ce and an upward component se.
         ce, se = rotated(*fore, wrist.axis4 - self.elbow.fore_angle)
         ahead = [cos1 * tool[0][k] + sin1 * tool[1][k] for k in range(3)]
         aside = [wrist.sign5 * (cos1 * tool[1][k] - sin1 * tool[0][k]) for k in range(3)]
@@ -103,13 +104,14 @@ class SphericalWristGeometry(Sealed):
         sin4 = np.where(stuck, 0.0, aside[2] / sin5)
         sin5 = np.where(stuck, 0.0, sin5)
         # Joint 4 determines axis 5; joint 6 is the angle from axis 5 to the tool. Near the
-        # singularity this keeps the orientation correct although joint 4 is noise (errata S1-d).
+        # singularity, this keeps the orientation correct even though the value of joint 4 is
+        # dominated by rounding errors (errata S1-d).
         sin6 = wrist.sign6 * (cos4 * aside[0] - sin4 * below[0])
         cos6 = cos4 * aside[1] - sin4 * below[1]
         q4, q5, q6 = np.arctan2(sin4, cos4), np.arctan2(sin5, cos5), np.arctan2(sin6, cos6)
 
-        # The other wrist solution: joint 5 with the opposite sign, joints 4 and 6 half a turn
-        # further. A singular wrist has only one row.
+        # In the other wrist solution, joint 5 has the opposite sign, and joints 4 and 6 are half a
+        # turn further. A singular wrist has only one solution.
         other = [q4 - np.copysign(np.pi, q4), -q5, q6 - np.copysign(np.pi, q6)]
         if stuck.any():
             pairs = zip((q4, q5, q6), other, strict=True)
@@ -124,17 +126,17 @@ class SphericalWristGeometry(Sealed):
         return self.elbow.gap(centre, self.branches[row, 0])
 
     def singularities(self, q: Floats) -> dict[str, Bools]:
-        """Which singularities occur at q (..., 6): dict of name -> bool (...). Those of
-        `Elbow.singularities`, and wrist: axes 4 and 6 are in line (within 1e-6 rad).
+        """Return whether each singularity occurs at q (..., 6): those of `Elbow.singularities`, and
+        "wrist", at which axes 4 and 6 are in line (within 1e-6 rad).
         """
         return self.elbow.singularities(q) | {"wrist": abs(np.sin(q[..., 4])) < SINGULAR}
 
     def choose_free_joints(self, q: Floats, previous: Floats) -> Floats:
-        """Return rows q (..., 6) in which the joints that a wrist singularity leaves free turn
-        least from `previous`.
+        """Return rows q (..., 6) in which the joints that a wrist singularity leaves free turn as
+        little as possible from `previous`.
 
-        There only the sum of joints 4 and 6 matters (the difference where joint 5 is pi); each
-        takes half of the rotation.
+        At this singularity, only the sum of joints 4 and 6 matters (their difference if joint 5 is
+        pi); each of them takes half of the rotation.
         """
         stuck = abs(np.sin(q[..., 4])) < NOISY
         if not stuck.any():
@@ -149,10 +151,10 @@ class SphericalWristGeometry(Sealed):
 
 
 class Wrist(NamedTuple):
-    """The last three joints, measured from the links at q = 0.
+    """The dimensions of the last three joints, computed from the links at q = 0.
 
     sign5, sign6  +1 or -1: axis 5 points along +y or -y, axis 6 along or against axis 4
-    axis4         angle of axis 4 above the horizontal
+    axis4         the angle of axis 4 above the horizontal
     from_flange   the quaternion w, x, y, z from the flange to the wrist's own frame, in which axis
                   5 is y and axis 4 is z
     centre_from_flange  the vector x, y, z from the flange to the wrist centre, in the wrist's own
@@ -167,8 +169,9 @@ class Wrist(NamedTuple):
 
     @classmethod
     def measured(cls, points: Floats, axes: Floats, flange: Transform) -> tuple["Wrist", Floats]:
-        """Measure a wrist from a point on each of the axes 4 to 6, the axes, and the flange; also
-        return the wrist centre. ValueError: directions other than those in `spherical_wrist`.
+        """Compute the dimensions of a wrist from a point on each of the axes 4 to 6, the directions
+        of the axes, and the flange. Also return the wrist centre. Raises ValueError if an axis does
+        not have the direction that `spherical_wrist` requires.
         """
         (e4, e5, e6), (p4, p5, p6) = axes, points
         parallel(5, e5, 1)

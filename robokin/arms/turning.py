@@ -1,8 +1,8 @@
 """Three levers on a turning base, which reach points in space.
 
-Source 003 works in the plane and adds the third axis with one motor between manipulator and ground,
-which turns the plane of the levers about the vertical (II.2). This motor needs no new inverse: its
-angle is the direction of the point, and the rest is the planar arm.
+Source 003 works in the plane and adds the third dimension with one motor between the manipulator
+and the ground, which turns the plane of the levers about the vertical (II.2). This motor needs no
+new inverse: its angle is the direction of the point, and the planar arm does the rest.
 """
 
 from dataclasses import dataclass, field
@@ -24,10 +24,11 @@ X = np.array([1.0, 0.0, 0.0])
 
 def turning_base(arm: ThreeLeverArm) -> "TurningLeverArm":
     """The arm on a turning base, q = (turn, gamma, beta, alpha). Joint 1 turns the plane of the
-    levers about the z axis of the base, which points up. At 0 the x axis of the levers is that of
-    the base; their y axis always points up. Joint 1 ranges from -180 to 180 degrees.
+    levers about the z axis of the base, which points up. When joint 1 is 0, the x axis of the
+    levers is that of the base; their y axis always points up. Joint 1 ranges from -180 to 180
+    degrees.
 
-    Source: 003, II.2. TypeError: an arm of another kind.
+    Source: 003, II.2. Raises TypeError if `arm` is not a ThreeLeverArm.
     """
     limits = np.concatenate([[(-180 * deg, 180 * deg)], instance(arm, ThreeLeverArm, "arm").limits])
     return TurningLeverArm(f"{arm.name} on a turning base", TurningLeverGeometry(arm), limits)
@@ -35,7 +36,7 @@ def turning_base(arm: ThreeLeverArm) -> "TurningLeverArm":
 
 @dataclass(frozen=True, repr=False, eq=False)
 class TurningLeverGeometry(Sealed):
-    """The links of `turning_base`, and the planar arm `plane` that turns. It has no inverse."""
+    """The links of an arm on a turning base, and its planar arm `plane`. There is no inverse."""
 
     target = np.ndarray
     plane: ThreeLeverArm
@@ -56,8 +57,9 @@ class TurningLeverArm(Arm):
 
     def seen(self, point: ArrayLike) -> tuple[Floats, Floats]:
         """The two angles of joint 1 (..., 2) at which the plane of the levers contains the points,
-        and the points in that plane (..., 2, 2): in front of the base and, half a turn further,
-        behind it. For a point on the axis every angle is possible; we take 0 and half a turn.
+        and the coordinates of the points in that plane (..., 2, 2). At the first angle, the points
+        are in front of the base; at the second, half a turn further, they are behind it. For a
+        point on the axis, every angle is possible; we take 0 and half a turn.
         """
         x, y, z = np.moveaxis(floats(point, "point", 3), -1, 0)
         r, turn = distance(x, y), np.arctan2(y + 0.0, x + 0.0)  # -0.0 becomes 0
@@ -68,8 +70,8 @@ class TurningLeverArm(Arm):
         """The posture within the limits at the points (..., 3) with the smallest sum S of the four
         absolute angle changes from previous (..., 4): (..., 4) and (...), NaN where there is none.
 
-        It takes the better of the two angles of joint 1; for a point on the axis the base does not
-        turn.
+        We choose the better of the two angles of joint 1. For a point on the axis, the base does
+        not turn.
         """
         before = floats(previous, "previous", 4)
         warn_if_degrees(before, "previous", posture=1)

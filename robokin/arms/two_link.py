@@ -1,4 +1,4 @@
-"""Two links in the plane z = 0: the arm of source 002, with two lengths and two elbow solutions."""
+"""The arm of source 002: two links in the plane z = 0, with two solutions for the elbow."""
 
 from dataclasses import dataclass
 from typing import Any
@@ -31,11 +31,11 @@ def two_link(l1: float, l2: float, base: ArrayLike = (0, 0)) -> ClosedFormArm:
 
     q1 is the angle of link 1 from the +x axis, q2 that of link 2 from link 1. The document's
     unknown (x2, y2) is the elbow: `arm.frames(q)[..., 1].translation`. `ik` takes points (..., 2)
-    or (..., 3), or the translations of Transforms; a point off the plane z = 0 is out of reach. The
-    limits are one turn each; the document states none.
+    or (..., 3), or the translations of Transforms; a point off the plane z = 0 is out of reach.
+    Each joint ranges from -180 to 180 degrees; the document states no limits.
 
-    Source: 002, (1) and figure 1. ValueError: a length that is not one positive number, a base that
-    is not a point.
+    Source: 002, (1) and figure 1. Raises ValueError if a length is not one positive number or
+    `base` is not a point.
 
     >>> from robokin import deg, two_link
     >>> (two_link(0.3, 0.4).ik((0.3, 0.4)) / deg).round(1) + 0.0
@@ -48,13 +48,13 @@ def two_link(l1: float, l2: float, base: ArrayLike = (0, 0)) -> ClosedFormArm:
 
 @dataclass(frozen=True, init=False, repr=False, eq=False)
 class TwoLinkGeometry(Sealed):
-    """Two links in the plane and their inverse (see `two_link`). Configuration flag: the sign of
-    q2; at +1 link 2 turns counter-clockwise from link 1, and the elbow is to the right of the line
-    from base to tip.
+    """Two links in the plane and their inverse (see `two_link`). The configuration flag is the sign
+    of q2. At +1, link 2 turns counter-clockwise from link 1, and the elbow is to the right of the
+    line from base to tip.
 
     The document's formula (2) is valid only for equal links mounted at the origin, divides by x3,
     and changes sides with the sign of x3 (errata S2-a, S2-d, S2-e). We solve the triangle of base,
-    elbow and tip with half angles, for any lengths.
+    elbow and tip with half-angle formulas, for any lengths.
     """
 
     branches = flags(1)
@@ -78,7 +78,7 @@ class TwoLinkGeometry(Sealed):
 
     def ik(self, pose: Any) -> Floats:
         """See `ClosedFormArm.ik`: points or Transform of shape (...) -> (..., 2, 2). Where equal
-        links fold and the tip is at the base, q1 is free and is set to 0.
+        links fold and the tip is at the base, q1 is free and set to 0.
         """
         x, y, d, off = self._way(pose)
         ahead, turn, exists = two_levers(self.l1, self.l2, d)
@@ -95,19 +95,19 @@ class TwoLinkGeometry(Sealed):
         return worst(borders | {"plane": off}, self.carried)
 
     def singularities(self, q: Floats) -> dict[str, Bools]:
-        """Which singularities occur at q (..., 2): dict of name -> bool (...), within 1e-6 rad."""
+        """Return whether each singularity occurs at q (..., 2), within 1e-6 rad."""
         return {"elbow": abs(np.sin(q[..., 1])) < SINGULAR}
 
     def choose_free_joints(self, q: Floats, previous: Floats) -> Floats:
-        """Return rows q (..., 2) with q1 as in `previous` wherever the tip is at the base and
-        leaves q1 free.
+        """Return rows q (..., 2) in which q1 has its value from `previous` wherever it is free
+        because the tip is at the base.
         """
         equal = abs(self.l1 - self.l2) <= FREE * self.reach
         free = (abs(np.cos(q[..., 1] / 2)) < FREE) & equal
         return np.where(free[..., None] & (np.arange(2) == 0), previous, q)
 
     def _way(self, pose: Any) -> tuple[Floats, Floats, Floats, Floats]:
-        """The vector from base to tip: x, y, its length d, and the tip's height off the plane."""
+        """The vector from base to tip (x, y), its length, and the tip's distance from the plane."""
         x, y, z = coordinates(pose)
         # -0.0 becomes 0, since atan2 distinguishes the two although they are the same coordinate
         x, y = x - self.base[0] + 0.0, y - self.base[1] + 0.0

@@ -1,5 +1,5 @@
-"""The course: exercises that name the mistake, predictions, hints, numbers for each student, a
-report.
+"""The course: exercises that name the student's mistake, predictions, hints, individual numbers for
+each student, and reports.
 
     from robokin.course import check, hint, predict, progress, report, solution, variant
 
@@ -35,20 +35,20 @@ __all__ = [
     "variant",
 ]
 
-watch()  # a lab's first cell imports this, so `report` knows which cells ran after it
-# exercise id -> its latest verdict in this kernel; a passing verdict is kept
+watch()  # the first cell of a lab imports this module, so `report` knows which cells ran later
+# the latest verdict on each exercise in this kernel, by id; a passing verdict is kept
 _verdicts: dict[str, Verdict] = {}
 
 
 def check(name: str | Exercise, answer: Any = None, who: Any = None) -> Verdict:
-    """Return a `Verdict` on the answer to an exercise, such as "irb140_motion.1". It displays
-    itself in a cell.
+    """Return a `Verdict` on the answer to an exercise, such as "irb140_motion.1". A cell displays
+    the verdict.
 
     name  an id, or your own exercise (see `exercise`)
     who   the student, if the exercise gives each student their own numbers (see `variant`)
 
-    It never raises: the verdict reports an answer that raises, prints, changes its input or never
-    ends.
+    No exception escapes: if the answer raises an error, prints, changes its input or never ends,
+    the verdict says so.
     """
     called = name.title if isinstance(name, Exercise) else str(name)
     try:
@@ -71,22 +71,23 @@ def check(name: str | Exercise, answer: Any = None, who: Any = None) -> Verdict:
 def exercise(
     solution: Any, cases: Callable[..., Any] | None = None, mistakes: str = ""
 ) -> Exercise:
-    """Make your own exercise: `check(exercise(...), answer)`.
+    """Make your own exercise, to use as in `check(exercise(...), answer)`.
 
-    solution  a Markdown file (.md) like those of the labs, with its Python file next to it; or
-              a correct function, or its source text
-    cases     random generator -> inputs of the function, each a tuple
-    mistakes  as in the Markdown file: a name, a sentence, edits of the solution
+    solution  a Markdown file (.md) like those of the labs, with its Python file next to it; or a
+              correct function, or its source text
+    cases     a function that takes a random generator and returns inputs of the solution, as tuples
+    mistakes  as in the Markdown file: a name, a sentence, edits to the solution
 
-    The file is read again on each call. ValueError: it cannot be read, it defines no function, or
-    an edit does not match.
+    The file is read again on each call. Raises ValueError if the file cannot be read or defines no
+    function, or if an edit does not match.
     """
     return own(solution, cases, mistakes)
 
 
 def pose_explorer(name: str) -> "Explorer":
-    """Return the target explorer of an exercise whose answer is a pose. The page says whether the
-    pose solves the task, and "Copy as Python" gives the pose. ValueError: no such exercise.
+    """Return the target explorer of an exercise whose answer is a pose. The page shows whether the
+    pose solves the task, and its button "Copy as Python" copies the pose. Raises ValueError if
+    there is no such exercise.
     """
     from ..arms.catalogue import IRB140
     from ..show.explorers import Explorer, target_explorer
@@ -101,7 +102,9 @@ def pose_explorer(name: str) -> "Explorer":
 
 
 def hint(name: str, n: int = 1) -> Note:
-    """Return hint n of an exercise, from 1; later hints say more. ValueError: no such exercise."""
+    """Return hint n of an exercise, counting from 1; later hints reveal more. Raises ValueError if
+    there is no such exercise.
+    """
     hints = find(name, "exercises").hints
     if not isinstance(n, int) or not 1 <= n <= len(hints):
         return Note(f"There are {len(hints)} hints: 1 to {len(hints)}.")
@@ -110,13 +113,15 @@ def hint(name: str, n: int = 1) -> Note:
 
 
 def solution(name: str) -> Note:
-    """Return a solution of an exercise as text; it is not run. ValueError: no such exercise."""
+    """Return a solution of an exercise as text, without running it. Raises ValueError if there is
+    no such exercise.
+    """
     found: Exercise = find(name, "exercises")
     return Note(f"# --- {found.number}: {found.title}\n{found.solution.strip()}")
 
 
 def progress(name: str | None = None) -> Note:
-    """Return the objectives reached in this kernel, lab by lab, or those of the lab `name`."""
+    """Return the objectives reached in this kernel, for each lab or only for the lab `name`."""
     slugs = dict.fromkeys(k.partition(".")[0] for k in _verdicts) if name is None else [name]
     lines = ["Checked since this kernel started:"] if _verdicts else []
     for slug in slugs:

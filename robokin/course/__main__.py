@@ -50,23 +50,25 @@ def _parser() -> argparse.ArgumentParser:
     export = command(
         _export,
         "write each lab as one page that works without a network",
-        "Write LAB.html for each LAB.ipynb: one page that needs neither a network nor Python. Its "
+        "Write LAB.html for each LAB.ipynb. The page needs neither a network nor Python, and its "
         "players, explorers and predictions work.",
     )
     report = command(
         _report,
-        "write your lab as one page to hand in",
-        "Run each LAB.ipynb again and write LAB_NAME.html: the student's name, the verdicts on the "
-        "exercises, the predictions, and the lab itself, which works without a network.",
+        "write your lab as a single page to hand in",
+        "Run each LAB.ipynb again and write LAB_NAME.html. The page contains the student's "
+        "name, the verdicts on the exercises, the predictions and the lab itself. It works without "
+        "a network.",
     )
     summary = command(
         _summary,
         "write the teacher's table of handed-in work",
-        "Write summary.csv and summary.html from the reports and notebooks below FOLDER: the "
-        "students, their results, the frequent mistakes and the wrong predictions; and in "
-        "summary_pages a page for each row. Notebooks are judged again, several at a time, which "
-        "takes 5 to 60 seconds each. Judging runs the students' code with your permissions, "
-        "without a sandbox, and that code can forge a verdict: use nbgrader for marks that matter.",
+        "Write summary.csv and summary.html from the reports and notebooks in FOLDER and its "
+        "subfolders. They list the students, their results, the frequent mistakes and the wrong "
+        "predictions; summary_pages contains a page for each row. Notebooks are judged again, "
+        "several at a time; each takes 5 to 60 seconds. Judging runs the students' code with your "
+        "permissions, without a sandbox, and that code can forge a verdict: use nbgrader for marks "
+        "that matter.",
     )
     for each in (export, report):
         each.add_argument("labs", help="a notebook (.ipynb)", **labs)
@@ -86,10 +88,10 @@ def _parser() -> argparse.ArgumentParser:
 def _copy_arguments(command: Callable[..., argparse.ArgumentParser]) -> None:
     copy = command(
         _copy,
-        "copy the labs into a student's folder, and newer versions later",
-        "Copy the labs into FOLDER, trusted. When run again, it replaces the labs that the student "
-        "has not edited (running a lab does not count as editing) and keeps the student's work: "
-        "the newer lab is then put beside it, as NAME.new.ipynb.",
+        "copy the labs into a student's folder, or update them there",
+        "Copy the labs into FOLDER and mark them as trusted. When run again, replace the labs that "
+        "the student has not edited (running a lab does not count as editing). An edited lab is "
+        "kept, and its newer version is written next to it as NAME.new.ipynb.",
     )
     copy.add_argument("folder", metavar="FOLDER", type=Path, help="the student's folder")
     where = "where the labs are (default: in the clone that robokin is installed from)"
@@ -100,12 +102,12 @@ def _site_arguments(command: Callable[..., argparse.ArgumentParser]) -> None:
     site = command(
         _site,
         "write all labs and the package reference as pages that work without Python",
-        "Write a site into FOLDER: labs, companions, glossary, notes for teachers, the package "
-        "reference and a search. Open its index.html, or put the folder on any web server.",
+        "Write a website into FOLDER: the labs, companions, glossary, notes for teachers, package "
+        "reference and a search page. Open its index.html, or put the folder on any web server.",
         extra="site",
     )
     site.add_argument(
-        "folder", metavar="FOLDER", type=Path, help="a new folder, or an earlier site"
+        "folder", metavar="FOLDER", type=Path, help="a new folder, or one with an earlier site"
     )
     site.add_argument(
         "--no-teaching",
@@ -116,8 +118,8 @@ def _site_arguments(command: Callable[..., argparse.ArgumentParser]) -> None:
 
 
 def _add(folder: Path) -> None:
-    """Make the labs in a folder known to this process and to the kernels that it starts. OSError:
-    it is not a folder, or has no labs.
+    """Make the labs in a folder known to this process and to the kernels that it starts. Raises
+    OSError if it is not a folder or has no labs.
     """
     from .book import ELSEWHERE, labs
 
@@ -172,7 +174,7 @@ def _report(options: Any) -> int:
 
 
 def _each(labs: Sequence[Path], written: Callable[[Path], Path]) -> int:
-    """Write each lab as a page. A failure is reported, and the other labs are still written."""
+    """Write each lab as a page. Report failures, and write the other labs all the same."""
     failed = 0
     for path in labs:
         try:
@@ -198,7 +200,7 @@ def _summary(options: Any) -> int:
         print(line, end="" if live else "\n", flush=True)
 
     try:
-        places(options.to)  # check this before running notebooks for minutes
+        places(options.to)  # fail now, not after running notebooks for minutes
         made = summary(options.folder, tell=tell, ours=lambda path: is_ours(path, options.to))
         if live:
             print()

@@ -24,7 +24,7 @@ SECONDS = 4.0  # seconds of CPU time for one case, or for one program of a test
 TOTAL = 30.0  # seconds of CPU time for all cases together
 WALL = 90.0  # wall-clock seconds for one case: sleeping takes no CPU time
 QUIET = {"RESUME", "NOP", "LOAD_CONST", "RETURN_VALUE", "RETURN_CONST"}
-IDENTITY: Any = object.__eq__  # the == of classes that do not define their own
+IDENTITY: Any = object.__eq__  # the == of classes that do not define one
 RAISING = {"LOAD_GLOBAL", "RAISE_VARARGS", "PUSH_NULL", "PRECALL", "CALL"}
 
 
@@ -35,7 +35,7 @@ class TimeUp(BaseException):
 
 
 class Outcome(NamedTuple):
-    """The outcome of one call: a result, or what went wrong (`name`, and a sentence `says`)."""
+    """The outcome of one call: a result, or what went wrong (`name`, and the sentence `says`)."""
 
     result: Any = None
     name: str | None = None
@@ -62,8 +62,8 @@ NEVER = _never(SECONDS)
 
 
 def is_stub(answer: Any) -> bool:
-    """Whether nothing has been written yet: `...` itself, or a function that does nothing or raises
-    NotImplementedError.
+    """Return whether nothing has been written yet, that is, the answer is `...`, or a function that
+    does nothing or raises NotImplementedError.
     """
     if answer is ... or answer is None:
         return True
@@ -80,7 +80,7 @@ def is_stub(answer: Any) -> bool:
 
 
 def unended(outcome: Outcome) -> bool:
-    """Whether this call was stopped."""
+    """Return whether this call was stopped because it took too long."""
     return outcome.name in ("never ends", "too slow")
 
 
@@ -88,14 +88,14 @@ host: Callable[[bool], None] = lambda begins: None  # noqa: E731  see `run`
 
 
 def run(answer: Callable[..., Any], cases: Sequence[tuple[Any, ...]]) -> list[Outcome]:
-    """Run `answer` on every case, up to the first one that does not end in time. A case has
-    `SECONDS` of CPU time, and `WALL` seconds if it waits or computes elsewhere; all cases together
-    have `TOTAL`.
+    """Run `answer` on every case, up to the first one that does not end in time. Each case may take
+    `SECONDS` of CPU time and `WALL` seconds of real time, since it may wait or compute elsewhere;
+    all cases together may take `TOTAL` seconds of CPU time.
 
-    The answer runs in its own thread, so that `TimeUp`, which can arrive between any two steps of
-    Python, cannot reach the calling thread. Python in a web page has no threads; the page sets
-    `host`, which is called when answers begin (True) and when they have ended (False), and stops
-    everything if necessary.
+    The answer runs in its own thread, so that `TimeUp`, which can arrive between any two
+    instructions, cannot reach the calling thread. In a web page, Python has no threads. There, the
+    page sets `host`, which we call with True when answers begin and with False when they have
+    ended, and the page stops Python if necessary.
     """
     worker, streams = _Worker(answer, cases), (sys.stdout, sys.stderr)
     try:
@@ -103,7 +103,7 @@ def run(answer: Callable[..., Any], cases: Sequence[tuple[Any, ...]]) -> list[Ou
             warnings.simplefilter("ignore")
             try:
                 worker.start()
-            except RuntimeError:  # no threads
+            except RuntimeError:  # threads are not available
                 worker.run_here()
             else:
                 worker.watch()
@@ -141,7 +141,7 @@ def _call(answer: Callable[..., Any], case: tuple[Any, ...]) -> Outcome:
 
 
 def _where(answer: Callable[..., Any], error: BaseException) -> str:
-    """The last line in the answer's own file or cell that the error passed through."""
+    """Describe the last line in the answer's own file or cell that the error passed through."""
     code, line, trace = getattr(answer, "__code__", None), 0, error.__traceback__
     while trace is not None:
         if code is not None and trace.tb_frame.f_code.co_filename == code.co_filename:
@@ -161,11 +161,11 @@ def _told(error: BaseException) -> str:
 
 class _Worker:
     """The thread in which an answer runs. Python delays an exception from another thread until the
-    next step, so three things happen in this order: the worker sets `done`, the watching thread
-    withdraws its exception, and only then may the worker `leave`.
+    next instruction, so the order matters: the worker sets `done`, the watching thread withdraws
+    its exception, and only then may the worker `leave`.
 
-    It is not a `threading.Thread`, in which an interrupt while `start` waits becomes a different
-    error.
+    We do not use `threading.Thread`, because an interrupt while its `start` waits would cause a
+    different error.
     """
 
     def __init__(self, answer: Callable[..., Any], cases: Sequence[tuple[Any, ...]]) -> None:
@@ -179,8 +179,8 @@ class _Worker:
             lock.acquire()
 
     def start(self) -> None:
-        """Start the thread. RuntimeError: threads are not available."""
-        self.started = True  # set first, since an interrupt can arrive between any two steps
+        """Start the thread. Raises RuntimeError if threads are not available."""
+        self.started = True  # set first, since an interrupt can arrive at any time
         try:
             _thread.start_new_thread(self.run, ())
         except RuntimeError:
@@ -269,7 +269,7 @@ def _raise_in(thread: int, error: type[BaseException] | None) -> None:
 
 
 def equal(a: Any, b: Any) -> bool:
-    """Whether two values of any type are equal; NaN equals NaN."""
+    """Return whether two values of any type are equal; NaN equals NaN."""
     if isinstance(a, Transform) or isinstance(b, Transform):
         return (
             isinstance(a, Transform)

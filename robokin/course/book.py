@@ -1,9 +1,10 @@
 """Find exercises and predictions by id: "irb140_motion.1" is exercise 1 of the lab whose notebook
-is NN_irb140_motion.ipynb; "irb140_motion.p2" is a prediction of that lab.
+is NN_irb140_motion.ipynb; "irb140_motion.p2" is a prediction of that lab. A prediction that moves
+to another lab keeps its id.
 
 Their text is in one folder per lab, in notebooks/exercises. The environment variable
-ROBOKIN_EXERCISES lists more such folders: for your own labs, or if robokin was not installed from a
-clone.
+ROBOKIN_EXERCISES lists additional folders of this kind, for your own labs or if robokin was not
+installed from a clone.
 """
 
 import contextlib
@@ -11,10 +12,12 @@ import hashlib
 import importlib
 import inspect
 import os
+import re
 import sys
 import textwrap
 import traceback
-from collections.abc import Callable, Iterator, Mapping
+from collections import Counter
+from collections.abc import Callable, Iterable, Iterator, Mapping
 from dataclasses import replace
 from functools import cache, cached_property, partial
 from pathlib import Path
@@ -37,8 +40,8 @@ DEFAULTS = ("form", "law", "same")  # `own` ignores these names in a notebook
 
 
 class Lab:
-    """The exercises and predictions of a lab, read from its folder on demand. Files that cannot be
-    read are in `broken`, file -> reason; the others are available.
+    """The exercises and predictions of a lab, read from its folder on demand. `broken` maps each
+    file that cannot be read to the reason; all other files can be used.
     """
 
     def __init__(self, folder: Path) -> None:
@@ -52,7 +55,7 @@ class Lab:
 
     @cached_property
     def objectives(self) -> tuple[str, ...]:
-        """What a student can do after the lab."""
+        """The objectives: what a student can do after the lab."""
         file = self.folder / "objectives.md"
         with self._noted(file.name):
             return markdown.objectives(markdown.read(file)) if file.is_file() else ()
@@ -91,8 +94,21 @@ class Lab:
                     found[number] = replace(each, view=partial(self._view, number))
         return found
 
+    @cached_property
+    def moved(self) -> Mapping[str, str]:
+        """The ids of the predictions that another lab asked first, by number: their headings have
+        the whole id.
+        """
+        with contextlib.suppress(BadFile):  # `predictions` notes that there is no such file
+            text = markdown.read(self.folder / "predictions.md")
+            found: list[str] = re.findall(r"^## (\w+\.p\d+)", text, re.M)
+            return {name.partition(".")[2]: name for name in found}
+        return {}
+
     def _view(self, number: str) -> Any:
-        """The view that answers a prediction. The drawing code is imported only here."""
+        """The view that shows the answer to a prediction. Only this method imports the drawing
+        code.
+        """
         return self.module("pictures").get(f"{number}_view", str)()
 
     def read(self) -> None:
@@ -101,17 +117,19 @@ class Lab:
 
     @property
     def given(self) -> Callable[[Any], Any] | None:
-        """The function student -> numbers of the student; None if no exercise has such numbers."""
+        """The function that returns the numbers of a student; None if no exercise has any."""
         found = (getattr(each, "given", None) for each in self.exercises.values())
         return next(filter(None, found), None)
 
     def exercise(self, file: Path) -> Exercise:
-        """The exercise in a Markdown file and its Python file. ValueError: they cannot be used."""
+        """Return the exercise in a Markdown file and its Python file. Raises ValueError if they
+        cannot be used.
+        """
         text = markdown.exercise(f"{file}", markdown.read(file))
         return made(text, self.module(file.stem))
 
     def module(self, stem: str) -> dict[str, Any]:
-        """Run a Python file and return its names. ValueError: it cannot be run."""
+        """Run a Python file and return its names. Raises ValueError if it cannot be run."""
         file = self.folder / f"{stem}.py"
         if not file.is_file():
             return {}
@@ -129,15 +147,15 @@ class Lab:
     def _noted(self, name: str) -> Iterator[None]:
         try:
             yield
-        except Exception as error:  # a teacher's file can raise anything
+        except Exception as error:  # a teacher's file may raise any error
             known = f"{error}" if isinstance(error, ValueError) else markdown.why(error)
             self.broken[name] = known if known.startswith(f"{self.folder}") else f"{name}: {known}"
 
 
 def made(text: markdown.Text, code: Mapping[str, Any]) -> Exercise:
-    """Make an exercise of the kind that its files imply: writing a test if the text has "Right
-    programs", giving a value if the code has `faults`, otherwise writing a function. ValueError: it
-    is not an exercise.
+    """Make an exercise. Its files determine its kind: the student writes a test if the text has a
+    section "Right programs", gives a value if the code defines `faults`, and otherwise writes a
+    function. Raises ValueError if the files do not define an exercise.
     """
     if "Right programs" in text.parts:
         return Catch(text, code)
@@ -145,8 +163,8 @@ def made(text: markdown.Text, code: Mapping[str, Any]) -> Exercise:
 
 
 def own(solution: Any, cases: Any, mistakes: str) -> Exercise:
-    """Make the reader's own exercise from a Markdown file, or from a correct function or its
-    source text, and its cases. ValueError: it is not an exercise.
+    """Make the reader's own exercise from a Markdown file, or from cases and a correct function or
+    its source text. Raises ValueError if these do not define an exercise.
     """
     if isinstance(solution, os.PathLike) or f"{solution}".endswith(".md"):
         file = Path(solution).resolve()
@@ -173,7 +191,7 @@ def own(solution: Any, cases: Any, mistakes: str) -> Exercise:
 
 
 def labs() -> Mapping[str, Lab]:
-    """All labs by name: ours, then those of other folders. Those of a folder are in the order of
+    """All labs by name: ours, then those in other folders. The labs of a folder are in the order of
     the notebooks next to it; labs without a notebook come last.
     """
     return _labs(OURS, os.environ.get(ELSEWHERE, ""))
@@ -200,7 +218,7 @@ def _labs(ours: Path, elsewhere: str) -> Mapping[str, Lab]:
 
 
 def lab(name: Any) -> Lab:
-    """Return a lab. ValueError: no such lab."""
+    """Return a lab. Raises ValueError if there is no such lab."""
     known = labs()
     if not known:
         raise ValueError(
@@ -217,22 +235,43 @@ def titled(name: str) -> str:
     return f"lab {list(labs()).index(name):02}, {name.replace('_', ' ')}"
 
 
+def ids(slug: str, what: str) -> list[str]:
+    """The ids of the exercises or predictions of a lab, in its order. `what` is "exercises" or
+    "predictions". Raises ValueError if there is no such lab.
+    """
+    made = lab(slug)
+    return [made.moved.get(number, f"{slug}.{number}") for number in getattr(made, what)]
+
+
+def home(name: str) -> str:
+    """The lab that asks the prediction with this id, or sets the exercise: the one in the id,
+    unless the prediction has moved. Does not check whether there is such a lab.
+    """
+    asking = (slug for slug, made in labs().items() if name in made.moved.values())
+    return next(asking, name.partition(".")[0])
+
+
+def lab_of(names: Iterable[str]) -> str | None:
+    """The lab to which most of these ids belong, or None if they belong to no lab."""
+    found = Counter(slug for slug in map(home, names) if slug in labs())
+    return found.most_common(1)[0][0] if found else None
+
+
 def find(name: Any, what: str) -> Any:
     """Find an exercise or a prediction by id; an exercise is returned unchanged. `what` is
-    "exercises" or "predictions". ValueError: there is none, or it cannot be read.
+    "exercises" or "predictions". Raises ValueError if there is none or it cannot be read.
     """
     if isinstance(name, Exercise):
         return name
-    slug, dot, number = str(name).partition(".")
-    known = labs()
+    text, known = str(name), labs()
+    slug, (_, dot, number) = home(text), text.partition(".")
     if known and (slug not in known or not dot):
         raise ValueError(
             f'id: wanted an id such as "{next(iter(known))}.1", from one of the labs '
             f"{', '.join(known)}; got {name!r}. {MORE}"
         )
-    entries, broken = getattr(lab(slug), what), lab(slug).broken
-    if number not in entries:
-        ids = ", ".join(f"{slug}.{each}" for each in entries)
-        wanted = f"wanted one of {ids}" if ids else f"{slug} has no {what}"
-        raise ValueError("\n".join([f"id: {wanted}, got {name!r}", *broken.values()]))
-    return entries[number]
+    valid = ids(slug, what)
+    if text not in valid:
+        wanted = f"wanted one of {', '.join(valid)}" if valid else f"{slug} has no {what}"
+        raise ValueError("\n".join([f"id: {wanted}, got {name!r}", *lab(slug).broken.values()]))
+    return getattr(lab(slug), what)[number]

@@ -14,7 +14,8 @@ from .markdown import BadFile, Text
 ASSERTS = "It raises AssertionError"  # the beginning of a sentence from `answers.run`
 RAISES = (
     "it raises an error",
-    "It never returns a result. A test that ignores errors accepts it, although an error means no.",
+    "It never returns a result. A test that ignores errors accepts it, although an error shows "
+    "that the program is wrong.",
 )
 Program = Callable[..., Any]
 
@@ -24,18 +25,20 @@ class NoResult(Exception):
 
 
 class Catch(Exercise):
-    """An exercise in writing a test: program -> True if it is correct. The test must accept the
-    correct programs, and refuse the mistakes and a program that only raises. An error of a wrong
-    program that the test does not catch counts as a refusal. A test may refuse with an assertion;
-    then returning nothing means that it accepts.
+    """An exercise in writing a test: a function that takes a program and returns True if the
+    program is correct. The test must accept the correct programs, and refuse the mistakes and a
+    program that always raises an error. If a wrong program raises an error that the test does not
+    catch, this counts as a refusal. A test may also refuse a program by a failed assertion; then
+    returning nothing means that it accepts the program.
 
-    The Markdown has the correct programs, a promise (what they guarantee, shown if a test refuses
-    one) and the mistakes, each as edits of the first correct program that they fit. All programs
-    may use the names of the Python file, `code`. A function `refusal(inputs, result)` there adds a
-    sentence about the last call of a correct program that was refused.
+    The Markdown file contains the correct programs, a promise (what they guarantee, shown if the
+    test refuses one of them) and the mistakes, each as edits to the first correct program that they
+    fit. All programs may use the names in the Python file, `code`. If this file defines
+    `refusal(inputs, result)`, that function returns an additional sentence about the last call of a
+    correct program that was refused.
 
     Each check runs the programs in a new random order, so that a test that counts its calls does
-    not pass. The verdict names the first failure in the order of the Markdown.
+    not pass. The verdict names the first failure in the order of the Markdown file.
     """
 
     def __init__(self, text: Text, code: Mapping[str, Any]) -> None:
@@ -55,7 +58,7 @@ class Catch(Exercise):
         ]
 
     def program(self, text: str) -> Program:
-        """Make the program again, so that one that keeps state starts fresh."""
+        """Make a new copy of the program, so that it has no state from earlier calls."""
         made: Program = edits.run(text, self.code)[self.function]
         return made
 

@@ -1,24 +1,24 @@
-"""Copy the labs into a student's folder, and newer versions later:
+"""Copy the labs into a student's folder, or update them there:
 
     python -m robokin.course copy FOLDER
 
-A lab counts as edited if its cells differ or are in another order; running it does not count. A lab
-that the student has not edited is replaced by the newer version. An edited lab stays, byte for
-byte, and the newer version is put next to it as NAME.new.ipynb. A deleted lab comes back when there
-is a newer version. A file that has a lab's name but was never handed out belongs to the student.
-Notebooks are written as trusted, so that their players run immediately.
+A lab counts as edited if its cells have changed or are in a different order; running a lab does not
+count. A lab that the student has not edited is replaced by the newer version. An edited lab is
+kept, byte for byte, and the newer version is put next to it as NAME.new.ipynb. A deleted lab is
+restored when there is a newer version. A file that has a lab's name but was never handed out
+belongs to the student. Notebooks are written as trusted, so that their players run immediately.
 
-Exit status 0: every lab is there, or the student's own file in its place. 1: something could not be
-done and is reported on stderr; everything else is done, and the student's work is unchanged. A
-server that starts for a student can continue in both cases.
+The exit status is 0 if every lab is there, or a file of the student's own in its place. It is 1 if
+something could not be done; this is reported on stderr, everything else is done, and the student's
+work is unchanged. A script that starts a student's server can continue in both cases.
 
-How no work is lost. FOLDER/.robokin contains the manifest: every version that was ever written, by
-the digest of its file, with the digest of its cells. It is written before the labs, so that files
-of an interrupted run are recognised as ours. A lab is first written completely in .robokin, and
-then linked to its place, which never overwrites a file. The file that it replaces is first moved to
-.robokin/old, where nobody can save into it unnoticed, and is checked once more: if it is not ours,
-because the student saved at that very moment, it goes back. `_tidy` ends each step and repairs what
-an interrupted run left behind.
+The student's work is never lost. The manifest in FOLDER/.robokin lists every version that was ever
+written, with the digests of its file and of its cells. The manifest is written before the labs, so
+that files from an interrupted run are recognised as ours. A lab is first written completely in
+.robokin and then linked to its place; linking never overwrites a file. The file that it replaces is
+first moved to .robokin/old, where no program can save into it unnoticed, and is checked again. If
+it is not ours, because the student saved at that very moment, it is moved back. `_tidy` completes
+each step and repairs what an interrupted run left behind.
 """
 
 import contextlib
@@ -39,16 +39,16 @@ from .._validate import short
 
 HANDED_OUT = ("*.ipynb", "documents/*.ipynb", "tasks/*.json", "images/*")
 FOR_TEACHERS = ("documents/teaching.ipynb",)
-BUSY = "saved while labs were being copied, and left unchanged; run this again"
+BUSY = "was saved while labs were being copied and is left unchanged; run this again"
 
 
 @dataclass(frozen=True)
 class Outcome:
     """The outcome for the file at `path`; `says` describes it.
 
-    what  "new", "replaced"; "kept": the student's file stays, and the newer version is next to it;
-          "same": nothing to do; "gone": no longer a lab, and the file stays; "found": rescued from
-          an interrupted run; "failed"
+    what  "new", "replaced", "kept" (the student's file is kept, and the newer version is next to
+          it), "same" (there was nothing to do), "gone" (it is no longer a lab; the file is kept),
+          "found" (it was rescued from an interrupted run) or "failed"
     """
 
     path: str
@@ -59,12 +59,12 @@ class Outcome:
 def copy(
     folder: str | os.PathLike[str], source: str | os.PathLike[str] | None = None
 ) -> list[Outcome]:
-    """Hand out the labs of `source` (None: of the clone that robokin is installed from) into
+    """Copy the labs from `source` (None means the clone from which robokin is installed) into
     `folder`, which is created if necessary.
 
-    ValueError: no labs, not a folder, one folder inside the other, or another copy is running.
-    OSError: no permission, or a full disk; then nothing is written. A failure for one file is an
-    `Outcome`.
+    Raises ValueError if there are no labs, `folder` is not a folder, one folder is inside the
+    other, or another process is copying. Raises OSError, and writes nothing, if permission is
+    missing or the disk is full. The failure of a single file is reported as an `Outcome`.
     """
     labs = Path(source) if source is not None else Path(__file__).parents[2] / "notebooks"
     files = {
@@ -82,8 +82,9 @@ def copy(
 
 
 def digest(path: str, content: bytes) -> str:
-    """A digest of a file's content: for a notebook the types, sources and attachments of its cells,
-    in order; for anything else, including a broken notebook, the bytes.
+    """Return a digest of a file's content. For a notebook, the content is the types, sources and
+    attachments of its cells, in order; for anything else, including a broken notebook, it is the
+    bytes.
     """
     if path.endswith(".ipynb"):
         with contextlib.suppress(ValueError, LookupError, TypeError, RecursionError):
@@ -97,9 +98,9 @@ def digest(path: str, content: bytes) -> str:
 
 @dataclass
 class _Entry:
-    """The manifest's entry for a lab. `laid`: the version written last (digest of the source's
-    file), None if there is none; `handed`: version -> digest of its content, for all versions that
-    may be in the folder.
+    """The manifest's entry for a lab. `laid` is the version written last (the digest of the source
+    file), or None. `handed` maps each version that may be in the folder to the digest of its
+    content.
     """
 
     laid: str | None = None
@@ -121,7 +122,7 @@ class _Job:
 
 
 class _Folder:
-    """A student's folder. Paths are relative to it, with slashes."""
+    """A student's folder. Paths are relative to it and use forward slashes."""
 
     def __init__(self, folder: Path) -> None:
         self.folder, self.own = folder, folder / ".robokin"
@@ -138,7 +139,7 @@ class _Folder:
         for path in sorted({*self.entries, *labs}):
             if path not in labs:
                 if os.path.lexists(self.folder / path):
-                    self._say(path, "gone", "no longer a lab; the file stays")
+                    self._say(path, "gone", "no longer a lab; the file is kept")
                 continue
             try:
                 job = self._plan(path, labs[path].read_bytes(), labs)
@@ -153,7 +154,7 @@ class _Folder:
                 self.entries.setdefault(path, _Entry()).handed[job.version] = job.holds
         trouble = _sign(notebooks) if notebooks else None
         if trouble:
-            self._say(".", "failed", f"not trusted, so players stay still pictures: {trouble}")
+            self._say(".", "failed", f"not trusted, so players remain still pictures: {trouble}")
         self._remember()
         try:
             for job in jobs:
@@ -161,7 +162,7 @@ class _Folder:
         finally:
             try:
                 self._remember()
-            except OSError as error:  # the next copy will look at the files
+            except OSError as error:  # the next run will examine the files
                 self._say(".robokin/manifest.json", "failed", _reason(error))
         return self.outcomes
 
@@ -175,12 +176,12 @@ class _Folder:
         parent = (self.folder / path).parent
         if _barred(parent):
             if newer:
-                says = f"not copied: {parent.name} is yours and not an ordinary folder"
+                says = f"not copied, because {parent.name} is not an ordinary folder"
                 job.outcomes.append(Outcome(path, "kept", says))
             return job
         beside = [p for p in self._beside(path) if p not in labs]
         there = {p: _held(self.folder / p) for p in (path, *beside)}
-        # this includes an older version that the student has restored
+        # this replaces an older version that the student has restored, too
         known = (holds, job.version)
         job.places = [p for p in there if there[p] in ours and (there[p], entry.laid) != known]
         for place in job.places:
@@ -192,7 +193,7 @@ class _Folder:
         elif newer and there[path] not in ours:
             job.places = job.places or [self._free(path, "new")]
             side = PurePosixPath(job.places[0]).name
-            job.outcomes = [Outcome(path, "kept", f"yours stays; the newer version is {side}")]
+            job.outcomes = [Outcome(path, "kept", f"your version is kept; the newer one is {side}")]
         return job
 
     def _do(self, job: _Job) -> None:
@@ -209,8 +210,8 @@ class _Folder:
         self.outcomes += job.outcomes or [Outcome(job.path, "same")]
 
     def _lay(self, path: str, content: bytes, ours: set[str]) -> None:
-        """Write a file in place of one of ours, or where there is none. ValueError: a file was
-        saved there in the meantime.
+        """Write a file where there is none, or in place of one of ours. Raises ValueError if a file
+        was saved there in the meantime.
         """
         place, old = self.folder / path, self.old / path
         os.makedirs(place.parent, exist_ok=True)
@@ -230,8 +231,8 @@ class _Folder:
             self._tidy()
 
     def _tidy(self) -> None:
-        """Remove our files in .robokin, and put the files that were moved there back in their
-        places, or next to them if a new file that we did not write is there.
+        """Remove our files from .robokin. Move other files there back to their places, or next to
+        them if a new file that we did not write is in the way.
         """
         ours = {holds for entry in self.entries.values() for holds in entry.handed.values()}
         with contextlib.suppress(FileNotFoundError):
@@ -253,8 +254,8 @@ class _Folder:
                 self._say(path, "found", says)
 
     def _recall(self) -> None:
-        """Read the manifest. Without a readable one, a file counts as ours only if its content is
-        what we would write.
+        """Read the manifest. Without a readable manifest, a file counts as ours only if its content
+        is what we would write.
         """
         with contextlib.suppress(FileNotFoundError):
             try:
@@ -270,7 +271,7 @@ class _Folder:
                 self._say(".robokin/manifest.json", "found", "it cannot be read and is replaced")
 
     def _remember(self) -> None:
-        """Write the manifest, whole or not at all, if it has changed."""
+        """Write the manifest atomically if it has changed."""
         told = {path: asdict(entry) for path, entry in self.entries.items()}
         text = json.dumps(told, indent=1, sort_keys=True) + "\n"
         if text != self.stored:
@@ -286,7 +287,7 @@ class _Folder:
         return [str(place.with_name(n)) for n in names if name.fullmatch(n)]
 
     def _free(self, path: str, word: str) -> str:
-        """NAME.word.ipynb, or the first of NAME.word2.ipynb, ... that is free."""
+        """Return NAME.word.ipynb, or the first of NAME.word2.ipynb, ... that is free."""
         place, n = PurePosixPath(path), 1
         while True:
             side = place.with_name(f"{place.stem}.{word}{n if n > 1 else ''}{place.suffix}")
@@ -313,8 +314,8 @@ def _target(folder: Path, labs: Path) -> Path:
 
 @contextlib.contextmanager
 def alone(path: Path, seconds: float = 0) -> Iterator[None]:
-    """Hold the lock at `path`, which is also released if the process dies. ValueError: another
-    process still holds it after `seconds`.
+    """Hold the lock at `path`, which is also released if the process dies. Raises ValueError if
+    another process still holds it after `seconds`.
     """
     end = time.monotonic() + seconds
     with open(path, "ab") as file:
@@ -343,8 +344,10 @@ def _locked(file: BinaryIO) -> bool:
 
 
 def _prepared(content: bytes) -> tuple[bytes, Any]:
-    """A notebook as text to write, and as nbformat's object. ValueError: it is not a notebook."""
-    # imported only if needed: it would take most of the time of a copy that changes nothing
+    """Return a notebook as text to write and as an nbformat object. Raises ValueError if it is not
+    a notebook.
+    """
+    # imported only if needed, since this takes most of the time of a run that changes nothing
     import nbformat
 
     try:
@@ -357,7 +360,7 @@ def _prepared(content: bytes) -> tuple[bytes, Any]:
         notebook = nbformat.reads(text, as_version=4)
         nbformat.validate(notebook)
         return text.encode(), notebook
-    except Exception as error:  # JSON, Unicode and schema errors of several libraries
+    except Exception as error:  # JSON, Unicode and schema errors from several libraries
         reason = str(error).partition("\n")[0]
         raise ValueError(f"not a notebook: {reason}") from None
 
@@ -379,8 +382,8 @@ def _sign(notebooks: Iterable[Any]) -> str | None:
 
 
 def _held(place: Path) -> str | None:
-    """The digest of the file at `place`; None if nothing is there; "" if it is not a readable file,
-    and so not one of ours.
+    """The digest of the file at `place`; None if nothing is there; "" if it is not a readable file
+    and therefore not one of ours.
     """
     try:
         if not stat.S_ISREG(os.lstat(place).st_mode):
@@ -393,13 +396,13 @@ def _held(place: Path) -> str | None:
 
 
 def _barred(folder: Path) -> bool:
-    """Whether something other than a real folder is there; we never write through a link."""
+    """Return whether something other than a real folder is there; we never write through a link."""
     return folder.is_symlink() or (folder.exists() and not folder.is_dir())
 
 
 def write(path: Path, content: bytes) -> None:
-    """Write a new file, which is on disk when this returns. It never writes into an existing file,
-    which may have a second name.
+    """Write a new file and flush it to disk. We never write into an existing file, since it may
+    also have another name (a hard link).
     """
     with contextlib.suppress(FileNotFoundError):
         os.unlink(path)
@@ -410,7 +413,7 @@ def write(path: Path, content: bytes) -> None:
 
 
 def _put(path: Path, place: Path) -> None:
-    """Move a file to a free place. FileExistsError: the place is taken."""
+    """Move a file to a free place. Raises FileExistsError if the place is taken."""
     try:
         os.link(path, place, follow_symlinks=False)
     except FileExistsError:

@@ -19,23 +19,23 @@ Span = tuple[int, int, str]  # start, end, replacement
 
 
 class Variant(NamedTuple):
-    """A wrong program: its name, a sentence, and its edits to the solution or its whole text."""
+    """A wrong program: its name, a sentence, and its edits to the solution or its complete text."""
 
     name: str
     says: str
     change: tuple[Span, ...] | str
 
     def text(self, solution: str) -> str:
-        """The wrong program."""
+        """The text of the wrong program."""
         return self.change if isinstance(self.change, str) else _edited(solution, self.change)
 
 
 def own(
     file: str, name: str, programs: Sequence[str], mistakes: Sequence[Wrong]
 ) -> list[tuple[Variant, str]]:
-    """Each mistake of an exercise as a variant, with the correct program that it changes: the first
-    one that it fits. All programs define `name`. ValueError: a sentence for each mistake that fits
-    none of them.
+    """Return each mistake of an exercise as a variant, with the first correct program that it fits.
+    All programs define `name`. Raises ValueError, with a sentence for each mistake that fits none
+    of the programs.
     """
     found, misfits = [], []
     for each in mistakes:
@@ -112,7 +112,7 @@ SLIPS = {
     "sine for cosine": "A sine is used instead of a cosine, or a cosine instead of a sine.",
     "a root left out": "A square root is missing.",
     "a square left out": "A square is missing.",
-    "absolute value left out": "A difference counts with its sign: take its absolute value.",
+    "absolute value left out": "A difference has a sign: take its absolute value.",
     "least for greatest": "The least is taken instead of the greatest, or the other way round.",
     "any for all": "It uses any where all is needed, or the other way round.",
     "a factor of two": "A factor of two is missing, or there is one too many.",
@@ -162,7 +162,7 @@ def everybody(solution: str) -> list[Variant]:
 
 
 def _in_sums(node: Any, said: Callable[[Any], str]) -> Iterator[tuple[str, Any, str]]:
-    """Slips in arithmetic and comparisons: name, the piece that is replaced, its replacement."""
+    """Yield slips in arithmetic and comparisons: the name, the node to replace, its replacement."""
     match node:
         case ast.BinOp(op=ast.Add() | ast.Sub(), left=a, right=b):
             sign = "-" if isinstance(node.op, ast.Add) else "+"
@@ -192,7 +192,7 @@ def _in_sums(node: Any, said: Callable[[Any], str]) -> Iterator[tuple[str, Any, 
 
 
 def _in_calls(node: Any, said: Callable[[Any], str]) -> Iterator[tuple[str, Any, str]]:
-    """Slips in function calls: name, the piece that is replaced, its replacement."""
+    """Yield slips in function calls: the name, the node to replace, its replacement."""
     match node:
         case ast.Call(func=ast.Attribute(value=a, attr="inverse"), args=[]):
             yield "inverse left out", node, said(a)
@@ -218,8 +218,9 @@ def _in_calls(node: Any, said: Callable[[Any], str]) -> Iterator[tuple[str, Any,
 
 
 def function_name(file: str, line: int, program: str) -> str:
-    """The name of the last function that a program defines at its top level. BadFile: it defines
-    none, or is not Python. `line` is its first line in the file.
+    """The name of the last function that a program defines at its top level. `line` is the
+    program's first line in the file. Raises BadFile if it defines no function or is not valid
+    Python.
     """
     try:
         top = ast.parse(program).body
@@ -242,8 +243,9 @@ class Steps:
     """A solution split into the statements of its function, so that thousands of wrong programs run
     quickly. Each wrong program consists of compiled statements and begins after those that it
     shares with the solution, with its own copies of all values that a statement may change. A
-    solution cannot be split, and is compiled again for each wrong program, if it returns in more
-    than one place or assigns a function to a name, since that function may use later names.
+    solution that returns in more than one place cannot be split, and neither can one that assigns a
+    function to a name, since that function may use later names. Such a solution is compiled again
+    for each wrong program.
     """
 
     def __init__(self, solution: str, also: Mapping[str, Any]) -> None:

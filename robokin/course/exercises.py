@@ -20,7 +20,7 @@ EMPTY = "Nothing here yet: write your answer into the cell above and run both ag
 
 @dataclass(frozen=True)
 class Verdict:
-    """The result of a check. It displays itself at the end of a cell.
+    """The result of a check. A notebook displays it at the end of a cell.
 
     answered  whether there was an answer to judge
     holds     whether all conditions hold
@@ -69,8 +69,8 @@ class Verdict:
 
 
 class Exercise(ABC):
-    """An exercise from Markdown. `objective` is the number of an objective of the lab, from 1;
-    `hints` range from a nudge to almost the whole solution.
+    """An exercise defined in Markdown. `objective` is the number of an objective of the lab,
+    counting from 1; `hints` range from a nudge to almost the whole solution.
     """
 
     def __init__(self, text: Text) -> None:
@@ -92,7 +92,7 @@ def unanswered(name: str) -> Verdict:
 
 
 def has_nan(value: Any) -> bool:
-    """Whether numbers or a pose contain a NaN."""
+    """Return whether numbers or a pose contain a NaN."""
     with contextlib.suppress(Exception):
         numbers = value.as_matrix() if isinstance(value, (Transform, Quaternion)) else value
         return bool(np.isnan(np.asarray(numbers, dtype=float)).any())

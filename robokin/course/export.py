@@ -1,10 +1,10 @@
 """Export a notebook as one page that needs no network and no Python: formulas are MathML, code is
 highlighted, folded cells stay folded, and players, explorers and predictions work.
 
-The page is harmless even if the notebook is hostile. We use only a cell's text, its number and
-whether it is folded. An output of robokin is generated again (`ours.py`); any other output is
-cleaned (`harmless.py`) or shown as text. Only scripts with the page's nonce run. nbconvert provides
-the styles and reads Markdown.
+The page is harmless even if the notebook is hostile. Of each cell, we use only the text, the
+number, and whether it is folded. Outputs of robokin are generated again (`ours.py`); all other
+outputs are sanitised (`harmless.py`) or shown as text. Only scripts with the page's nonce run.
+nbconvert provides the styles and the Markdown parser.
 """
 
 import html
@@ -37,7 +37,7 @@ from .ours import again
 from .texts import LINES, visible
 
 FORMULAS = LatexToMathML(fancy_error=False)
-TEX = 2_000  # maximum number of characters in a formula; the parser's stack grows with its braces
+TEX = 2_000  # maximum number of characters in a formula; the parser recurses at each brace
 # Maximum number of characters to parse as Markdown, HTML or Python, per piece and per page: the
 # libraries take up to 10 s per megabyte. Text beyond these limits is shown as it was typed.
 PIECE, ROOM = 50_000, 150_000
@@ -50,7 +50,7 @@ FIRST = ("text/html", "text/markdown", "image/svg+xml", "text/latex", *IMAGES[1:
 
 
 def mathml(tex: str, block: bool = False) -> str:
-    """Convert a TeX formula to MathML. ValueError: the formula cannot be read."""
+    """Convert a TeX formula to MathML. Raises ValueError if the formula cannot be read."""
     tex = visible(tex.strip())
     if len(tex) > TEX:
         raise ValueError(f"formula {short(tex)}: wanted at most {TEX} characters, got {len(tex)}")
@@ -64,8 +64,8 @@ def mathml(tex: str, block: bool = False) -> str:
 
 
 def named(formula: str) -> str:
-    """Give MathML a name if it is a single letter. Alone in a column heading, the letter would have
-    no name, since axe and some screen readers do not look for text in MathML.
+    """Give a formula that is a single letter an accessible name. Otherwise, a column heading with
+    nothing else in it would have no name, since axe and some screen readers ignore text in MathML.
     """
     letter = re.fullmatch("<math><mi>(\\w)</mi></math>", formula)
     return f'<math aria-label="{letter[1]}"><mi>{letter[1]}</mi></math>' if letter else formula
@@ -75,9 +75,10 @@ class View:
     """The cells of a notebook as a page shows them.
 
     folder   the folder with its pictures
-    choices  prediction -> the choice shown on opening; None: the choices in the notebook
-    lenient  show an unreadable formula as it was typed, and note it in `remarks`; otherwise it is a
-             ValueError
+    choices  a dict that maps predictions to the choices shown when the page opens; None means the
+             choices in the notebook
+    lenient  if True, an unreadable formula is shown as it was typed and noted in `remarks`;
+             otherwise it raises a ValueError
     """
 
     def __init__(
@@ -118,7 +119,7 @@ class View:
         }
 
     def _affords(self, text: str) -> bool:
-        """Whether a piece of text may be parsed; if so, count it."""
+        """Return whether a piece of text may be parsed; if so, count its characters."""
         if len(text) > min(PIECE, self._room):
             return False
         self._room -= len(text)
@@ -196,7 +197,9 @@ class View:
         return _shown("RenderedText", "text/plain", f"An output is left out here: {names}.")
 
     def _latex(self, text: str) -> Markup:
-        """Convert words with formulas in dollars, as SymPy writes them, or a formula alone."""
+        """Convert text with formulas between dollar signs, as written by SymPy, or a single
+        formula.
+        """
         text = visible(shortened(text))
         if not self._affords(text) or text.count("$") > 100:
             return _as_typed(text)
@@ -223,8 +226,8 @@ class View:
 
 
 class Renderer(IPythonRenderer):
-    """Convert Markdown to HTML. The resulting HTML is cleaned, so formulas and highlighted code are
-    kept separately and replaced by a mark that nobody can guess.
+    """Convert Markdown to HTML. The HTML will be sanitised, so formulas and highlighted code are
+    stored separately and represented by marks that nobody can guess.
     """
 
     def __init__(self, view: View, name: str) -> None:
@@ -342,8 +345,8 @@ def page(cells: list[dict[str, Any]], title: str, nonce: str, header: str = "") 
 
 
 def read(path: Path) -> Any:
-    """Read the notebook at `path` with nbformat. ValueError: it is not a notebook, or cannot be
-    read.
+    """Read the notebook at `path` with nbformat. Raises ValueError if it is not a notebook or
+    cannot be read.
     """
     try:
         notebook = nbformat.read(path, as_version=4)
@@ -352,7 +355,7 @@ def read(path: Path) -> Any:
         raise ValueError(f"{error.strerror}") from None
     except AttributeError:  # raised by nbformat if the JSON is a list or a number
         raise ValueError("not a notebook: its JSON is not an object") from None
-    except Exception as error:  # JSON, Unicode and schema errors of several libraries
+    except Exception as error:  # JSON, Unicode and schema errors from several libraries
         lines = [line for line in visible(str(error)[:2000]).splitlines() if line.strip()]
         reason = lines[0][:300] if lines else type(error).__name__
         raise ValueError(f"not a notebook: {reason}") from None
@@ -360,8 +363,8 @@ def read(path: Path) -> Any:
 
 
 def export(path: Path, to: Path) -> None:
-    """Write the notebook at `path` as the page `to`, whole or not at all. ValueError: not a
-    notebook, a formula that cannot be read, or an existing file that is not one of our pages.
+    """Write the notebook at `path` as the page `to`, atomically. Raises ValueError if it is not a
+    notebook, a formula cannot be read, or `to` is an existing file that is not one of our pages.
     """
     view = View(path.parent)
     write_page(to, page(view.cells(read(path)), path.stem, view.nonce))

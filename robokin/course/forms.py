@@ -1,5 +1,5 @@
-"""Forms that several exercises share. A form converts a result for the check, or raises a
-ValueError that says what was wanted and what it got.
+"""Forms for several exercises. A form converts a result for comparison, or raises a ValueError that
+says what was wanted and what was received.
 """
 
 from collections.abc import Mapping, Sequence
@@ -18,8 +18,8 @@ from .told import floats, one_number
 
 
 def same(a: Any, b: Any) -> bool:
-    """Whether two results are equal: numbers within 1e-6, or within a millionth if they are large;
-    NaN equals NaN.
+    """Return whether two results are equal. Numbers may differ by 1e-6, or by one millionth of
+    their size if they are large; NaN equals NaN.
     """
     if isinstance(a, Mapping) and isinstance(b, Mapping):
         return a.keys() == b.keys() and all(same(a[key], b[key]) for key in a)
@@ -32,8 +32,8 @@ def same(a: Any, b: Any) -> bool:
 
 
 def like(result: Any, wanted: Any) -> Any:
-    """Return a result with the type and shape of the correct one. ValueError: it has a different
-    type or shape.
+    """Return a result with the type and shape of the correct one. Raises ValueError if it has a
+    different type or shape.
     """
     if isinstance(wanted, (bool, np.bool_)):
         return truth(result)
@@ -59,7 +59,9 @@ def like(result: Any, wanted: Any) -> Any:
 
 
 def numbers(result: Any, shape: tuple[int, ...], what: str = "") -> Floats:
-    """Return numbers of this shape. ValueError: they are not numbers, or the shape differs."""
+    """Return numbers of this shape. Raises ValueError if the result is not numeric or its shape
+    differs.
+    """
     if not what:
         what = f"an array of shape {shape}" if shape else "a number"
     try:
@@ -72,14 +74,18 @@ def numbers(result: Any, shape: tuple[int, ...], what: str = "") -> Floats:
 
 
 def truth(result: Any, what: str = "") -> bool:
-    """Return True or False. ValueError: it is something else. `what` is added to the message."""
+    """Return True or False. Raises ValueError if it is something else; `what` is added to the
+    message.
+    """
     if not isinstance(result, (bool, np.bool_)):
         raise ValueError(f"wanted True or False{what and f' {what}'}, got {in_words(result)}")
     return bool(result)
 
 
 def numbers_of(answer: Any, names: Sequence[str]) -> dict[str, float]:
-    """Return a dict with a finite number for each name. ValueError: one is missing or invalid."""
+    """Return a dict with a finite number for each name. Raises ValueError if one is missing or
+    invalid.
+    """
     if not isinstance(answer, Mapping):
         raise ValueError(f"Wanted a dict with {' and '.join(names)}, got {in_words(answer)}.")
     missing = [name for name in names if name not in answer]

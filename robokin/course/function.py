@@ -25,7 +25,9 @@ Fault = tuple[str, str]  # the name of the fault, and a sentence
 
 
 class Candidate(NamedTuple):
-    """A possible explanation of an answer: a name, a sentence, and its result in case k."""
+    """A possible explanation of an answer: a name, a sentence, and a function that returns its
+    result in case k.
+    """
 
     name: str
     says: str
@@ -33,16 +35,16 @@ class Candidate(NamedTuple):
 
 
 class Function(Exercise):
-    """An exercise in writing a function. `code`, the names of the Python file, contains
+    """An exercise in writing a function. `code`, the names in the Python file, contains
 
-    cases  random generator -> inputs, each a tuple, the smallest first
+    cases  (random generator) -> the inputs of all cases, as tuples, the simplest first
 
     and, if the defaults in `forms` do not suffice,
 
     form   (result, case) -> the result in the form that `law` and `same` need; raises a ValueError
-           that says what was wanted and what it got
+           that says what was wanted and what was received
     law    (case, yours, wanted) -> None, or a sentence that says what should hold
-    same   (one, other) -> whether two results are the same answer
+    same   (one, other) -> True if two results count as the same answer
 
     Edits to the solution may use all names in the file.
     """
@@ -63,12 +65,14 @@ class Function(Exercise):
         self.own = [variant for variant, _ in wrong]
         self.alike = code.get("same", forms.same)
         self.made: dict[Any, tuple[Callable[..., Any], dict[int, Any]]] = {}
-        self.trying = ""  # the mistake whose program is running
+        self.trying = ""  # the mistake whose wrong program is running
         self.endless: list[str] = []  # mistakes that never ended; they are not run again
 
     @cached_property
     def cases(self) -> list[Case]:
-        """The cases, the same on every machine. BadFile: there are none, or they take over 4 s."""
+        """The cases, which are the same on every machine. Raises BadFile if there are none or
+        making them takes more than 4 s.
+        """
         draw = self.code["cases"]
         [outcome] = run(partial(_drawn, draw), [(140,)])
         found: list[Case] = outcome.result or []
@@ -85,7 +89,9 @@ class Function(Exercise):
 
     @cached_property
     def wanted(self) -> list[Any]:
-        """The correct results after `form`. BadFile: the solution raises, or a form is wrong."""
+        """The correct results, converted by `form`. Raises BadFile if the solution raises an error
+        or has an invalid form.
+        """
         found: list[Any] = []
         for outcome, case in zip(run(self.right, self.cases), self.cases, strict=False):
             try:
@@ -122,18 +128,18 @@ class Function(Exercise):
         return Verdict(name, mistake=mistake, says=says, case=case, points=min(good, 0.9))
 
     def same(self, one: Any, other: Any) -> bool:
-        """Whether two results are equal; results that cannot be compared are unequal."""
+        """Return whether two results are equal. Results that cannot be compared are unequal."""
         with contextlib.suppress(Exception):
             return bool(self.alike(one, other))
         return False
 
     def form(self, result: Any, case: Case, wanted: Any) -> Any:
-        """Return a result in the form that the check compares. ValueError: it has another form."""
+        """Return a result in the form that is compared. Raises ValueError if this is impossible."""
         own = self.code.get("form")
         return own(result, case) if own else forms.like(result, wanted)
 
     def formed(self, outcome: Outcome, k: int) -> Outcome:
-        """Return the outcome of case k with its result after `form`."""
+        """Return the outcome of case k with its result converted by `form`."""
         if outcome.name:
             return outcome
         try:
@@ -208,9 +214,9 @@ class Function(Exercise):
     # --- Explanations of a wrong answer
 
     def named(self, outcomes: list[Outcome], wrong: list[str | None], first: int) -> list[Fault]:
-        """The mistakes with these outcomes in all cases, tried in groups, the likeliest first: one
-        mistake of the exercise; a constant answer; one common slip; two mistakes of the exercise;
-        one mistake of the exercise with a slip in its result.
+        """The mistakes that give these outcomes in all cases. They are tried in groups, the
+        likeliest first: one mistake of the exercise; a constant answer; one common slip; two
+        mistakes of the exercise; one mistake of the exercise and a slip in its result.
         """
         if len(outcomes) < min(6, len(self.cases)):
             return []
@@ -287,8 +293,8 @@ class Function(Exercise):
         return Candidate(variant.name, variant.says, partial(self.result, variant))
 
     def result(self, variant: Variant, k: int) -> Any:
-        """The result of a wrong program in case k. It runs once for each case; its errors are
-        raised again.
+        """The result of a wrong program in case k. The program runs only once for each case; if it
+        raised an error, the error is raised again.
         """
         if variant.change not in self.made:
             self.made[variant.change] = (self.steps.program(variant), {})
@@ -310,9 +316,9 @@ class Function(Exercise):
         wrong: Sequence[str | None],
         order: Sequence[int],
     ) -> bool:
-        """Whether a candidate gives these outcomes in all cases, with a result in at least one, and
-        obeys and breaks the law in the same cases: an edit that leaves the program correct explains
-        nothing.
+        """Return whether a candidate gives these outcomes in all cases, with a result in at least
+        one, and satisfies and violates the law in the same cases. An edit that leaves the program
+        correct explains nothing.
         """
         others = {}
         with warnings.catch_warnings(), np.errstate(all="ignore"):
@@ -339,7 +345,9 @@ class Function(Exercise):
     # --- Remarks on an answer that no mistake explains
 
     def _nearly(self, outcomes: list[Outcome]) -> str:
-        """Say how far off an answer is if it is nearly right in every case; otherwise ""."""
+        """Return a sentence on how far off an answer is if it is nearly right in every case,
+        otherwise "".
+        """
         worst = 0.0
         for outcome, wanted in zip(outcomes, self.wanted, strict=True):
             mine, right = numbers(outcome.result), numbers(wanted)
@@ -359,9 +367,9 @@ class Function(Exercise):
         )
 
     def _unused(self, answer: Any, outcomes: list[Outcome]) -> list[str]:
-        """The inputs that do not change the answer although they should in some cases. It tries
+        """The inputs that do not affect the answer although they should in some cases. We try
         several cases with different results, none of them NaN; if the results are True and False,
-        it tries cases with both.
+        we try cases with both.
         """
         if any(outcome.name for outcome in outcomes):
             return []

@@ -1,14 +1,14 @@
 """Guesses from a page: while a kernel is running, a student's guesses are saved next to the
-notebook, in `.robokin/guesses.json`, where a report finds them.
+notebook, in `.robokin/guesses.json`, and a report reads them there.
 
     {"guesses": 1, "notebooks": {"03_irb140_motion.ipynb": {"irb140_motion.p1":
         [["b: joint 3", time]]}}}
 
-A choice is a number, or a letter with the name of the option, which remains valid if options change
-places.
+A choice is a number, or a letter with the name of the option; the name remains valid if the options
+are reordered.
 
-A widget without a view, one for each kernel, listens to the page (js/guesses.js) and confirms each
-guess. The notebook does not store the widget.
+Each kernel has one widget without a view, which receives guesses from the page (js/guesses.js) and
+confirms each of them. The notebook does not store this widget.
 """
 
 import ast
@@ -24,7 +24,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any, TypeAlias
 
 from .._validate import short
-from .book import find, lab
+from .book import find, home, ids, lab_of
 from .copies import alone, write
 from .predictions import worked_out
 from .questions import chosen_option
@@ -33,20 +33,21 @@ if TYPE_CHECKING:
     from .handed_in import HandedIn
 
 FOLDER, FILE = ".robokin", "guesses.json"
-LARGE = 1_000_000  # maximum number of bytes in a file of guesses; a student's has a few thousand
+LARGE = 1_000_000  # maximum number of bytes in a file of guesses; usually there are a few thousand
 NAME = re.compile(r"\w{1,60}\.p[0-9]{1,3}", re.ASCII)
+IN_LINE = re.compile(r"(?:\w{1,60}\.)?p[0-9]{1,3}", re.ASCII)
 CHOICE = re.compile(r"[a-f](?:: [^\r\n]{1,60})?|[-+.eE0-9]{1,30}")  # "b", "b: joint 3", "-290"
 ASKED = re.compile(rb"""predict\(\s*\\?["'](\w{1,60}\.p[0-9]{1,3})""")  # a call in a notebook
 PATIENCE = 10  # seconds to wait for another kernel that is writing
 
-Kept: TypeAlias = dict[str, list[tuple[str, str | None]]]  # prediction -> its guesses, with times
+Kept: TypeAlias = dict[str, list[tuple[str, str | None]]]  # guesses and times by prediction
 
 
 def read_guesses(path: Path) -> Kept | None:
     """The saved guesses for the notebook at `path`: {prediction: [(choice, time), ...]}, in
-    chronological order; None if there are none. Those of a renamed notebook are found, too.
+    chronological order; None if there are none. The guesses of a renamed notebook are found, too.
 
-    ValueError: the file cannot be used.
+    Raises ValueError if the file cannot be used.
     """
     try:
         notebooks = _stored(path.parent / FOLDER / FILE)
@@ -61,8 +62,8 @@ def keep(path: Path, made: Iterable[tuple[str, str, str]]) -> None:
     """Add guesses (prediction, choice, time) to those saved for the notebook at `path`, without
     duplicates. An unreadable file is renamed and kept.
 
-    ValueError: the file is full, or another kernel keeps writing. OSError: no permission, for
-    example.
+    Raises ValueError if the file is full or another kernel does not stop writing, and OSError if,
+    for example, permission is missing.
     """
     own = path.parent / FOLDER
     own.mkdir(exist_ok=True)
@@ -91,8 +92,9 @@ def keep(path: Path, made: Iterable[tuple[str, str, str]]) -> None:
 
 
 def parse_line(text: str) -> dict[str, str]:
-    """The guesses in the line copied from a page, "p1 b, p3 a, p5 -290": {"p1": "b", ...}, in
-    order. ValueError: another format. TypeError: not text.
+    """Parse the line copied from a page: "p1 b, p3 a, p5 -290" gives {"p1": "b", ...}, in order. A
+    prediction from another lab has its whole id. Raises ValueError if the format is wrong, and
+    TypeError if it is not text.
     """
     if not isinstance(text, str):
         raise TypeError(f"guesses: wanted the line copied from a page, got {short(text)}")
@@ -100,10 +102,8 @@ def parse_line(text: str) -> dict[str, str]:
     for part in text.split(",") if text.strip() else ():
         number, _, choice = part.strip().partition(" ")
         choice = choice.strip()
-        if not re.fullmatch("p[0-9]{1,3}", number) or not CHOICE.fullmatch(choice):
-            raise ValueError(
-                f'guesses: wanted predictions and choices, "p1 b, p5 -290", got {short(part)}'
-            )
+        if not IN_LINE.fullmatch(number) or not CHOICE.fullmatch(choice):
+            raise ValueError(f'guesses: wanted choices such as "p1 b, p5 -290", got {short(part)}')
         if number in found:
             raise ValueError(f"guesses: wanted one choice for each prediction, got {number} twice")
         found[number] = choice
@@ -117,7 +117,8 @@ def parse_line(text: str) -> dict[str, str]:
 class Guess:
     """The result of a prediction.
 
-    choice  the first guess, which counts; None: no guess was made, and right is None
+    choice  the first guess, which is the one that counts; None if no guess was made (then `right`
+            is None, too)
     when    its time, if known
     later   the later guesses, in order
     """
@@ -131,9 +132,10 @@ class Guess:
 
 
 def guesses(handed: "HandedIn", remarks: list[str] | None = None) -> tuple[Guess, ...]:
-    """The results of the predictions, without running anything. Guesses saved by a kernel come
-    first, then those in the line copied from a page, then the choice in the cell. Unusable guesses
-    are reported in `remarks`.
+    """Return the results of the predictions of the notebook's lab without running any code.
+    Guesses saved by a kernel come first, then those in the line copied from a page, then the
+    choice in the cell. An older notebook may ask predictions that have moved to another lab: those
+    that have a guess come last. Unusable guesses are reported in `remarks`.
     """
     kept: Kept = {}
     pasted: dict[str, str] = {}
@@ -146,27 +148,29 @@ def guesses(handed: "HandedIn", remarks: list[str] | None = None) -> tuple[Guess
         pasted = parse_line(handed.guesses)
     except ValueError as error:
         remarks.append(f"{error}.")
+    own = ids(handed.lab, "predictions") if handed.lab else []
+    moved = [p for p in handed.asked if p.startswith(f"{handed.lab}.") and p not in own]
     made = []
-    for number in lab(handed.lab).predictions if handed.lab else ():
-        name = f"{handed.lab}.{number}"
-        line, call = pasted.get(number), handed.choices.get(name)
+    for name in [*own, *moved]:
+        line, call = pasted.get(name.partition(".")[2], pasted.get(name)), handed.choices.get(name)
         others = [line, _literal(call.answer) if call else None]
         timeless = [(choice, None) for choice in others if choice is not None]
-        made.append(_guess(name, [*kept.get(name, ()), *timeless]))
+        guess = _guess(name, [*kept.get(name, ()), *timeless])
+        made += [guess] if guess.choice is not None or name in own else []
     if handed.lab and not any(each.choice for each in made):
         remarks += _beside(handed.path, handed.lab)
     return tuple(made)
 
 
 def _beside(path: Path, slug: str) -> list[str]:
-    """The remark for a notebook without guesses if exactly one other notebook of its lab has some.
-    We do not use those: the other copy may belong to another student or another attempt.
+    """The remark on a notebook without guesses if exactly one other notebook of its lab has some.
+    We do not use those, since they may belong to another student or another attempt.
     """
     found = []
-    with contextlib.suppress(OSError, ValueError):  # `remarks` has the error already
+    with contextlib.suppress(OSError, ValueError):  # `remarks` already has the error
         for name, kept in _stored(path.parent / FOLDER / FILE).items():
             first = {p: made[0][0] for p, made in kept.items() if made and _known(p)}
-            mine = {p.partition(".")[2]: c for p, c in first.items() if p.startswith(f"{slug}.")}
+            mine = {p.partition(".")[2]: c for p, c in first.items() if home(p) == slug}
             if mine and name != path.name:
                 found.append((name, ", ".join(f"{number} {c}" for number, c in mine.items())))
     return [
@@ -188,7 +192,7 @@ def _literal(text: str) -> str:
 
 def _guess(name: str, made: Sequence[tuple[str, str | None]]) -> Guess:
     """The result of a prediction with these guesses and times. A guess without a time is listed
-    only if no other one is the same.
+    only if no other guess is equal to it.
     """
     if not made:
         return Guess(name)
@@ -221,8 +225,8 @@ def _value(choice: str) -> str | float:
 
 
 def _stored(file: Path) -> dict[str, Kept]:
-    """The content of a file of guesses, by notebook; {} if there is none. ValueError: it cannot be
-    used.
+    """The content of a file of guesses, by notebook; {} if there is none. Raises ValueError if it
+    cannot be used.
     """
     if not os.path.lexists(file):
         return {}
@@ -266,7 +270,7 @@ def _choice(choice: Any) -> str:
 
 
 def _moment(time: Any) -> datetime:
-    """Parse a time with its UTC offset. ValueError: it is not one."""
+    """Parse a time with its UTC offset. Raises ValueError if this is impossible."""
     try:
         moment = datetime.fromisoformat(time)
         moment.astimezone(UTC)
@@ -284,15 +288,16 @@ def _known(name: str) -> bool:
 
 
 def _name(notebooks: dict[str, Kept], path: Path) -> str:
-    """The key of a notebook's guesses: its own name, or its previous name if exactly one notebook
-    with its predictions no longer exists.
+    """The key of a notebook's guesses: its own name or, if it was renamed, its previous name. It
+    counts as renamed if exactly one notebook of its lab with its predictions no longer exists.
     """
     if path.name in notebooks:
         return path.name
     gone = [name for name in notebooks if not os.path.lexists(os.path.join(path.parent, name))]
     content = path.read_bytes() if gone and path.is_file() else b""
     asked = {found.decode() for found in ASKED.findall(content)}
-    own = [name for name in gone if not asked.isdisjoint(notebooks[name])]
+    mine = (name for name in gone if not asked.isdisjoint(notebooks[name]))
+    own = [name for name in mine if lab_of(notebooks[name]) == lab_of(asked)]
     return own[0] if len(own) == 1 else path.name
 
 
@@ -310,7 +315,7 @@ _hub: Any = None  # the widget of this kernel
 
 
 def listen() -> None:
-    """Listen for guesses in the page from now on, if this is the kernel of an open notebook."""
+    """Receive guesses from the page from now on, if this is the kernel of an open notebook."""
     global _hub
     own = own_notebook()
     if _hub is not None or own is None or "ROBOKIN_JUDGE" in os.environ:
@@ -324,8 +329,9 @@ def listen() -> None:
 
 
 def own_notebook() -> Path | None:
-    """The notebook in which this runs, with the name that it had when the kernel started. Jupyter's
-    server and VS Code provide it; programs that run a notebook without a page do not.
+    """The path of the notebook in which this code runs, with the name that it had when the kernel
+    started. Jupyter's server and VS Code provide the path; programs that run a notebook without a
+    page do not.
     """
     ipython = sys.modules.get("IPython")
     space = getattr(ipython.get_ipython() if ipython else None, "user_ns", {})
@@ -334,21 +340,21 @@ def own_notebook() -> Path | None:
 
 
 def _told(message: Any, own: Path) -> dict[str, Any]:
-    """The reply to a message from the page, {"n": its number, "path": the notebook's path as the
-    page knows it, or None, "guesses": [[prediction, choice, time], ...]}.
+    """Return the reply to a message from the page. The message is {"n": its number, "path": the
+    notebook's path in the page, or None, "guesses": [[prediction, choice, time], ...]}.
     """
     try:
         made = [(_id(name), _choice(choice), time) for name, choice, time in message["guesses"]]
         keep(_called(message["path"], own), made)
-    except Exception as error:  # the page shows the error; here it would go unseen
+    except Exception as error:  # the page shows the error; here, it would go unnoticed
         reason = getattr(error, "strerror", None) or error
         return {"n": message["n"], "error": str(reason)}
     return {"n": message["n"]}
 
 
 def _called(path: str | None, own: Path) -> Path:
-    """The notebook with its current name. The page knows its path relative to the server's folder.
-    ValueError: it cannot be found.
+    """Return the notebook's path with its current name. `path`, from the page, is relative to the
+    server's folder. Raises ValueError if the notebook cannot be found.
     """
     if path is not None:
         for folder in own.parents:

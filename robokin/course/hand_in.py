@@ -1,7 +1,7 @@
 """`report(who)` in a lab writes the report of its own notebook.
 
-A notebook's file has the state of its last save, so it may lack changes that the student sees. This
-module records which cells ran in this kernel and when, and compares them with the file.
+A notebook's file contains the state at the last save, so it may lack changes that the student sees.
+This module records which cells ran in this kernel and when, and compares them with the file.
 """
 
 import json
@@ -10,12 +10,11 @@ import re
 import subprocess
 import sys
 import time
-from collections import Counter
 from collections.abc import Iterable
 from pathlib import Path
 from typing import Any, NamedTuple
 
-from .book import labs
+from .book import lab_of
 from .guesses import own_notebook, parse_line
 from .note import Note
 from .reported import counted, report_data
@@ -29,12 +28,12 @@ START = (  # runs this copy of robokin, not one in the notebook's folder
     f"import sys; sys.path.insert(0, {TOP!r}); from robokin.course.__main__ import main; "
     "sys.path.pop(0); sys.exit(main())"
 )
-IDS = re.compile(r"""["'](\w+)\.p?\d+["']""")
+IDS = re.compile(r"""["'](\w+\.p?\d+)["']""")
 CALL, ANSWER = re.compile(r"\breport\("), re.compile(r"\b(check|predict)\(|\b(def|class) ")
 
 
 class Ran(NamedTuple):
-    """A cell that was run, and when, in seconds since 1970."""
+    """A cell that was run, and the time when it ran, in seconds since 1970."""
 
     source: str
     when: float
@@ -44,7 +43,9 @@ _ran: list[Ran] = []  # cells that ran in this kernel
 
 
 def watch() -> None:
-    """Record the cells that run in this kernel from now on. Earlier cells count as run now."""
+    """Record the cells that run in this kernel from now on. Earlier cells are recorded as if they
+    ran now.
+    """
     shell = _shell()
     if shell is None:
         return
@@ -57,15 +58,15 @@ def watch() -> None:
 
 
 def report(who: Any, guesses: str | None = None, notebook: Any = None) -> Note:
-    """Run this notebook again, judge its answers, and write the report to hand in, next to it. The
-    note gives the report's name, or the reason why there is none.
+    """Run this notebook again, judge its answers, and write the report to hand in next to it. The
+    returned note gives the name of the report, or the reason why there is none.
 
     who       the student's name
     guesses   the line copied from the exported page of this lab: "p1 b, p3 a"
-    notebook  the notebook's file, if it cannot be determined
+    notebook  the notebook's file; needed only if it cannot be determined
 
-    It never raises. It does nothing with the placeholder name, or outside JupyterLab and VS Code,
-    where a notebook is only executed.
+    No exception escapes. Nothing happens if `who` is still the placeholder, or outside JupyterLab
+    and VS Code, where the notebook is only being executed.
     """
     name = str(who).strip()
     seen = own_notebook()
@@ -90,13 +91,13 @@ def report(who: Any, guesses: str | None = None, notebook: Any = None) -> Note:
 
 
 def _shell() -> Any:
-    """The IPython shell in which this runs, or None."""
+    """The IPython shell in which this code runs, or None."""
     ipython = sys.modules.get("IPython")
     return ipython.get_ipython() if ipython else None
 
 
 def _notebook(seen: Path | None, path: Any) -> Path:
-    """The notebook's file. ValueError: there is none, or there are several candidates."""
+    """The notebook's file. Raises ValueError if there is none or there are several candidates."""
     if path is not None:
         if not Path(path).is_file():
             raise ValueError(f"there is no file {str(path)!r} in {str(Path.cwd())!r}.")
@@ -123,12 +124,11 @@ def _may_be(path: Path, lab: str | None) -> bool:
 
 def _lab(sources: Iterable[str]) -> str | None:
     """The lab whose ids occur most often in these cells."""
-    found = Counter(lab for source in sources for lab in IDS.findall(source) if lab in labs())
-    return found.most_common(1)[0][0] if found else None
+    return lab_of(name for source in sources for name in IDS.findall(source))
 
 
 def _cells(path: Path) -> list[str]:
-    """The text of the code cells in a file. ValueError: it is not a notebook."""
+    """The text of the code cells in a file. Raises ValueError if it is not a notebook."""
     try:
         cells = json.loads(path.read_text(encoding="utf-8"))["cells"]
         return ["".join(cell["source"]) for cell in cells if cell["cell_type"] == "code"]
@@ -137,22 +137,22 @@ def _cells(path: Path) -> list[str]:
 
 
 def _unsaved(path: Path, guesses: str | None) -> bool:
-    """Whether a cell ran after the file was saved and is not in it in that form. A cell that ran
-    before and is not in it has been changed or deleted since, so the file is up to date.
+    """Return whether a cell that ran after the file was saved is missing from it in that form. If a
+    cell ran before and is missing, it was changed or deleted later, so the file is up to date.
     """
     saved = path.stat().st_mtime
     kept = {"", *(source.strip() for source in _cells(path))}
     return any(
         when > saved and source.strip() not in kept
         for source, when in _ran
-        # this cell itself need not be saved, unless it has guesses to read
+        # this cell itself need not be saved, unless it contains guesses to read
         if guesses is not None or not CALL.search(source) or ANSWER.search(source)
     )
 
 
 def _written(path: Path, who: str) -> Note:
-    """Write the report in a separate process, which ends if the cell is interrupted, and which does
-    not change this kernel. ValueError: the reason why there is no report.
+    """Write the report in a separate process, so that this kernel is not changed. The process ends
+    if the cell is interrupted. Raises ValueError, with the reason, if there is no report.
     """
     print("Running your lab again. This can take a minute.", flush=True)
     command = [sys.executable, "-P", "-X", "utf8", "-c", START, "report", str(path)]
@@ -168,7 +168,7 @@ def _written(path: Path, who: str) -> Note:
     )
     try:
         said, complaint = _outputs(child)
-    except KeyboardInterrupt:  # some front ends interrupt the child as well
+    except KeyboardInterrupt:  # some front ends interrupt the child process as well
         _end(child)
         raise
     if child.returncode:
@@ -176,7 +176,7 @@ def _written(path: Path, who: str) -> Note:
         raise ValueError(lines[-1] if lines else f"it ended with status {child.returncode}.")
     page = path.parent / Path(said.strip().rpartition(":")[0]).name
     data = report_data(page.read_text(encoding="utf-8")) or {"exercises": [], "predictions": []}
-    lines = [f"{page.name} is your report, beside this notebook. Look at it, and hand it in."]
+    lines = [f"{page.name} is your report, next to this notebook. Look at it, and hand it in."]
     lines.append("In JupyterLab, press Trust HTML to make it move; any browser can open the file.")
     for each in data["exercises"]:
         lines.append(f"{each['id']}: {each['state']}")

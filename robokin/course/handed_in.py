@@ -1,9 +1,9 @@
-"""A handed-in notebook as text: which exercises and predictions it answers, how, and which verdicts
-are in its outputs. Nothing is run.
+"""Read a handed-in notebook without running it: the exercises and predictions that it answers, the
+answers, and the verdicts in its outputs.
 
-Its author may have written anything. A ValueError gives the reason if it cannot be used, and
-reading takes time in proportion to its size. We do not use nbformat, which can take minutes for a
-megabyte; the result is a valid notebook with the parts that we use.
+The notebook may contain anything. If it cannot be used, a ValueError gives the reason. The time for
+reading is proportional to its size. We do not use nbformat, which can take minutes for a megabyte;
+the result is a valid notebook with only the parts that we use.
 """
 
 import ast
@@ -13,7 +13,6 @@ import os
 import re
 import threading
 import warnings
-from collections import Counter
 from collections.abc import Iterator
 from dataclasses import dataclass
 from pathlib import Path
@@ -22,12 +21,12 @@ from typing import Any, NamedTuple
 import nbformat
 
 from .._validate import short
-from .book import lab, labs
+from .book import home, ids, lab_of, labs
 from .texts import ALL_BUT_HALVES, all_visible
 
 NONE = "your name"  # the placeholder for the student's name in the labs
 CLAIM = re.compile(r"\b(\w+\.\w+): (holds|does not hold|not answered yet|not judged)\.")
-# calls of `check` in a cell that is not valid Python
+# calls to `check` in a cell that is not valid Python
 CHECKED = re.compile(r"""check\(\s{0,99}["'](\w{1,99}\.\w{1,99})["']""")
 SIZE = 20_000_000  # maximum number of bytes in a notebook
 CODE = 100_000  # maximum number of characters in a cell that is parsed as Python
@@ -38,8 +37,8 @@ CALLS = ("check", "predict", "report")
 
 
 class Call(NamedTuple):
-    """A call of `check` or `predict` in cell number `cell`. answer: the answer or the choice; own:
-    the argument `who`; both as source text, "" if missing.
+    """A call of `check` or `predict` in cell number `cell`. `answer` is the answer or the choice,
+    and `own` is the argument `who`; both are source text, or "" if missing.
     """
 
     cell: int
@@ -52,10 +51,12 @@ class Call(NamedTuple):
 class HandedIn:
     """A student's notebook.
 
-    lab      the lab whose exercises and predictions it contains; None: no lab
+    lab      the lab whose exercises and predictions it contains, or None
+    asked    the predictions that the notebook asks
     checks   the last call for each exercise, which is the one that counts
     choices  the last call with a choice for each prediction
-    broken   the exercises that are checked in cells that cannot be read as Python: id -> reason
+    broken   the ids of exercises that are checked in cells that are not valid Python, with the
+             reasons
     guesses  the line of guesses copied from a page, in the last call of `report` that has one
     strange  other exercises that the notebook checks: the student's own
     """
@@ -63,6 +64,7 @@ class HandedIn:
     path: Path
     notebook: Any
     lab: str | None
+    asked: tuple[str, ...]
     checks: dict[str, Call]
     choices: dict[str, Call]
     broken: dict[str, str]
@@ -80,14 +82,15 @@ class HandedIn:
 
 
 def handed_in(path: Path) -> HandedIn:
-    """Read a notebook. The ids in it determine its lab, since a file may have any name; without ids
-    the name of the file does. ValueError: not a notebook, or one that cannot be read.
+    """Read a notebook. The ids in it determine its lab, since the file may have any name; if it has
+    no ids, the file name determines the lab. Raises ValueError if it is not a notebook or cannot be
+    read.
     """
     notebook = _notebook(path)
     checks: dict[str, Call] = {}
     choices: dict[str, Call] = {}
     broken: dict[str, str] = {}
-    named: Counter[str] = Counter()
+    named: list[str] = []
     strange: dict[str, None] = {}
     guesses, room = "", ALL_CODE
     for k, cell in enumerate(notebook.cells):
@@ -113,22 +116,21 @@ def handed_in(path: Path) -> HandedIn:
                 if what == "check":
                     strange[call.name] = None
                 continue
-            named[call.name.partition(".")[0]] += 1
+            named.append(call.name)
             if what == "check":
                 checks[call.name] = call
                 broken.pop(call.name, None)
             elif call.answer not in ("", "None"):
                 choices[call.name] = call
-    named.update(name.partition(".")[0] for name in broken)
-    most = [slug for slug, _ in named.most_common()]
-    most = most or [slug for slug in labs() if slug in path.stem.lower()]
-    lab_ = most[0] if most else None
-    return HandedIn(path, notebook, lab_, checks, choices, broken, guesses, tuple(strange))
+    in_name = (slug for slug in labs() if slug in path.stem.lower())
+    lab_ = lab_of([*named, *broken]) or next(in_name, None)
+    asked = tuple(name for name in dict.fromkeys(named) if _known(name, "predictions"))
+    return HandedIn(path, notebook, lab_, asked, checks, choices, broken, guesses, tuple(strange))
 
 
 def claims(notebook: Any, checks: dict[str, Call]) -> dict[str, str]:
-    """The verdicts in the outputs, by exercise id: those of the call that counts, if it has any,
-    otherwise of all cells; "holds" if any of them says so.
+    """The verdicts in the outputs, by exercise id. They come from the cell with the call that
+    counts, if it shows any, otherwise from all cells. The verdict is "holds" if any of them is.
     """
     found: dict[str, str] = {}
     last = {(call.name, call.cell) for call in checks.values()}
@@ -171,7 +173,9 @@ def _notebook(path: Path) -> Any:
 
 
 def _cell(raw: Any, k: int) -> dict[str, Any]:
-    """The parts of a cell that we use, valid for nbformat 4.5. ValueError: it is not a cell."""
+    """The parts of a cell that we use, valid for nbformat 4.5. Raises ValueError if it is not a
+    cell.
+    """
     kind = raw.get("cell_type") if isinstance(raw, dict) else None
     if kind not in ("code", "markdown", "raw"):
         raise ValueError(f"cell {k}: wanted code, markdown or raw text, got {short(kind)}")
@@ -231,9 +235,8 @@ def _claimed(cell: Any) -> Iterator[tuple[str, str]]:
 
 
 def _known(name: str, what: str) -> bool:
-    """Whether an exercise (`what` is "exercises") or a prediction with this id exists."""
-    slug, _, number = name.partition(".")
-    return slug in labs() and number in getattr(lab(slug), what)
+    """Return whether an exercise (`what` is "exercises") or a prediction with this id exists."""
+    return home(name) in labs() and name in ids(home(name), what)
 
 
 def _calls(source: str, cell: int) -> Iterator[tuple[str, Call]]:
@@ -285,8 +288,8 @@ _parsing = threading.Lock()  # Python's warning filters are shared by all thread
 
 
 def _tree(source: str) -> ast.AST:
-    """The syntax tree of a cell. If it does not parse, its Jupyter lines (`%time`) are left out.
-    SyntaxError, ValueError, RecursionError, MemoryError: it still does not parse.
+    """The syntax tree of a cell. If it does not parse, its IPython magics (`%time`) are left out.
+    Raises SyntaxError, ValueError, RecursionError or MemoryError if it still does not parse.
     """
     flags = ast.PyCF_ONLY_AST | ast.PyCF_ALLOW_TOP_LEVEL_AWAIT
     with _parsing, warnings.catch_warnings():

@@ -1,5 +1,5 @@
-"""Make other people's text harmless in a page: no script, no style, no address that is fetched,
-none of our classes or ids, and nothing that changes the direction of text gets through.
+"""Sanitise other people's text for a page. It may not contain scripts, styles, addresses that are
+fetched, our classes or ids, or characters that change the direction of text.
 """
 
 import base64
@@ -19,8 +19,8 @@ from markupsafe import Markup
 
 from .texts import visible
 
-LONG = 100_000  # maximum number of characters of a text to show
-DEEP = 100  # maximum depth of elements, since the parser takes quadratic time
+LONG = 100_000  # maximum number of characters of a text that is shown
+DEEP = 100  # maximum nesting depth of elements, since the parser takes quadratic time
 
 TAGS = frozenset(
     "a abbr b blockquote br caption code col colgroup dd del details div dl dt em figcaption "
@@ -49,12 +49,12 @@ MATH_STYLE = re.compile(
 
 
 def shortened(text: str, most: int = LONG) -> str:
-    """Cut off a long text and add its length."""
+    """Truncate a long text and append its length."""
     return text if len(text) <= most else f"{text[:most]}\n... shortened: {len(text)} characters"
 
 
 def is_deep(markup: str) -> bool:
-    """Whether more elements than DEEP may be open at once."""
+    """Return whether more than DEEP elements may be open at the same time."""
     left: Counter[str] = Counter()
     depth = 0
     for slash, name in re.findall(r"<(/?)([A-Za-z][^\s/>]*)", markup):
@@ -79,7 +79,8 @@ def clean(
 ) -> str:
     """Return the HTML with only the allowed elements and attributes.
 
-    picture  the address of a picture -> a `data:` address, or None to leave it out
+    picture  a function that converts the address of a picture to a `data:` address, or returns None
+             to leave the picture out
     plain    a function that is first applied to the values of attributes
     """
     last = partial(_Attributes, picture=picture, plain=plain)
@@ -163,14 +164,14 @@ class _Attributes(Filter):  # type: ignore[misc]
             if found is None:
                 return {"type": "Characters", "data": f"[{words}]"}
             values |= {"alt": words, "src": found}
-        # the serializer takes an ampersand for the beginning of an existing entity
+        # the serializer mistakes an ampersand for the beginning of an entity
         data = {(None, n): visible(v).replace("&", "&amp;") for n, v in values.items()}
         return token | {"data": data}
 
 
 def harmless_link(address: str) -> str:
-    """Return an address that a reader may follow: web, mail, a page next to this one (or another
-    notebook), a place on this page. "" for any other.
+    """Return the address if a reader may follow it, otherwise "". Web and mail addresses, pages
+    next to this one (a notebook becomes its page) and places on this page are allowed.
     """
     address = re.sub(r"[\0-\x1f\x7f-\x9f]", "", address).strip().replace(" ", "%20")
     scheme = re.match(r"([^/?#]*):", address)
@@ -182,8 +183,8 @@ def harmless_link(address: str) -> str:
 
 
 def image(kind: str, data: str, alt: str) -> Markup:
-    """Return the picture of an output: `data` in base64, or the text of an SVG, which in an <img>
-    runs no script and fetches nothing. ValueError: not a picture.
+    """Return the picture of an output as an <img>. `data` is in base64, or the text of an SVG,
+    which in an <img> runs no script and fetches nothing. Raises ValueError if it is not a picture.
     """
     if kind == "image/svg+xml":
         data = base64.b64encode(data.encode(errors="replace")).decode()
@@ -194,7 +195,7 @@ def image(kind: str, data: str, alt: str) -> Markup:
 
 
 def file_as_picture(address: str, folder: Path) -> str | None:
-    """A picture in `folder` or below as a `data:` address; None if there is none."""
+    """A picture in `folder` or a subfolder as a `data:` address; None if there is none."""
     kind = PICTURES.get(Path(address).suffix.lower())
     try:
         path = (folder / address).resolve()
@@ -206,7 +207,7 @@ def file_as_picture(address: str, folder: Path) -> str | None:
 
 
 def png(data: str) -> bytes:
-    """Return the bytes of a PNG in base64. ValueError: it is not a PNG."""
+    """Return the bytes of a PNG in base64. Raises ValueError if it is not a PNG."""
     try:
         found = base64.b64decode(data, validate=True)
     except binascii.Error as error:

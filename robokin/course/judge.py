@@ -1,10 +1,11 @@
 """Judge a handed-in notebook again: its cells run in a fresh kernel, in order, in a separate
-folder, and the answers in its calls of `check` are judged there with the package's own `check`.
+folder, and the answers in its calls to `check` are judged there with the package's own `check`.
 
-A cell that raises does not stop the others. A cell that takes too long is interrupted. A cell that
-cannot be interrupted, or that kills the kernel, is left out, and all others run again in a new
-kernel. This protects against accidents, but it is not a sandbox: cells may read files and use the
-network with the permissions of the judging user, and a student can forge a verdict (`kernel.py`).
+A cell that raises an error does not stop the others. A cell that takes too long is interrupted. A
+cell that cannot be interrupted, or that kills the kernel, is left out, and all others run again in
+a new kernel. This protects against accidents, but it is not a sandbox: cells may read files and use
+the network with the permissions of the judging user, and a student can forge a verdict
+(`kernel.py`).
 """
 
 import asyncio
@@ -24,7 +25,7 @@ from typing import Any, NamedTuple
 
 import nbformat
 
-from .book import find, lab
+from .book import find, ids
 from .guesses import Guess as Guess
 from .guesses import guesses as guesses
 from .handed_in import NONE, Call, HandedIn, claims
@@ -38,7 +39,9 @@ LARGE = 50_000_000  # files next to a lab with this many bytes or more are not c
 
 
 class Limits(NamedTuple):
-    """Limits: seconds of CPU time for a cell, for an answer, and in total; bytes of memory."""
+    """Limits on the CPU time of a cell, of an answer and in total, in seconds, and on memory, in
+    bytes.
+    """
 
     cell: float = 60
     answer: float = 120
@@ -69,7 +72,7 @@ class Result:
 
 @dataclass(frozen=True)
 class Judged:
-    """The result of a notebook: the notebook with new outputs, verdicts and remarks."""
+    """The result of judging a notebook: the notebook with new outputs, verdicts and remarks."""
 
     notebook: Any
     exercises: tuple[Result, ...]
@@ -78,12 +81,12 @@ class Judged:
 
 
 def judge_notebook(handed: HandedIn, who: str | None, limits: Limits = LIMITS) -> Judged:
-    """Run a notebook and judge its answers. An exercise that gives each student their own
-    numbers uses those of the student `who`; with None, those of the name in the notebook. Several
-    threads may judge at the same time. OSError: a kernel cannot be started.
+    """Run a notebook and judge its answers. An exercise that gives each student their own numbers
+    uses those of the student `who` or, if this is None, of the name in the notebook. Several
+    threads may judge at the same time. Raises OSError if a kernel cannot be started.
     """
     notebook = nbformat.from_dict(handed.notebook)
-    names = _ids(handed.lab, "exercises")
+    names = ids(handed.lab, "exercises") if handed.lab else []
     checks = {name: call for name, call in handed.checks.items() if name in names}
     before = claims(notebook, checks)
     run = NotebookRun(notebook, checks, who, limits)
@@ -112,9 +115,9 @@ class NotebookRun:
         self, notebook: Any, checks: dict[str, Call], who: str | None, limits: Limits
     ) -> None:
         self.notebook, self.checks, self.who, self.limits = notebook, checks, who, limits
-        self.found: dict[str, dict[str, Any]] = {}  # id -> the answer from the kernel
-        self.notes: dict[int, str] = {}  # cell -> the reason why it is left out
-        self.stopped: dict[int, str] = {}  # cell -> what happened to it
+        self.found: dict[str, dict[str, Any]] = {}  # the kernel's reply for each exercise
+        self.notes: dict[int, str] = {}  # the reasons why cells are left out
+        self.stopped: dict[int, str] = {}  # what happened to the cells that were stopped
         self.slow: set[int] = set()  # cells that the wall-clock limit stopped
         self.cut: set[int] = set()  # cells with too much output
         self.remarks: list[str] = []
@@ -142,8 +145,8 @@ class NotebookRun:
         self._tell()
 
     async def _once(self, kernel: Kernel) -> bool:
-        """Run all cells that are not left out. Return False if one killed the kernel; it is left
-        out from now on.
+        """Run all cells that are not left out. Return False if a cell killed the kernel; that cell
+        is left out from now on.
         """
         for k, cell in enumerate(self.notebook.cells):
             if cell.cell_type != "code" or not cell.source.strip() or k in self.notes:
@@ -192,8 +195,8 @@ class NotebookRun:
         return "died" not in found
 
     def _too_slow(self, call: Call) -> bool:
-        """Whether the wall-clock limit stopped the cell of the call, or an earlier one that it may
-        need.
+        """Return whether the wall-clock limit stopped the cell of the call, or an earlier cell that
+        it may need.
         """
         return any(k <= call.cell for k in self.slow)
 
@@ -280,7 +283,7 @@ def _complete(work: Callable[[], Coroutine[Any, Any, None]]) -> None:
 
 
 def _stopped(ended: Ended, limit: float) -> str:
-    """Say in words what happened to a cell."""
+    """Return a sentence that says what happened to a cell."""
     if ended.how == "dead":
         return "The kernel died in this cell. The other cells ran without it."
     if ended.how == "unread":
@@ -296,7 +299,7 @@ def _stopped(ended: Ended, limit: float) -> str:
 
 
 def _read(answer: Any) -> dict[str, Any]:
-    """Read the answer from a kernel, which may be any text, since cells share the kernel with the
+    """Parse the reply from a kernel. It may be any text, since cells share the kernel with the
     checks.
     """
     with contextlib.suppress(ValueError, TypeError, RecursionError):
@@ -307,8 +310,8 @@ def _read(answer: Any) -> dict[str, Any]:
 
 
 def _verdict(blank: Result, verdict: Any) -> Result:
-    """Convert a verdict from the kernel to a result. KeyError, TypeError, ValueError: it is not a
-    verdict.
+    """Convert a verdict from the kernel to a result. Raises KeyError, TypeError or ValueError if it
+    is not a verdict.
     """
     texts = {name: verdict[name] for name in ("mistake", "case")}
     says, points = verdict["says"], float(verdict["points"])
@@ -329,7 +332,7 @@ def _verdict(blank: Result, verdict: Any) -> Result:
 
 @functools.cache
 def _limited() -> bool:
-    """Whether this system limits the memory of a process."""
+    """Return whether this system can limit the memory of a process."""
     return sys.platform not in ("win32", "darwin")  # macOS does not enforce its limit
 
 
@@ -360,10 +363,6 @@ def _unwanted(folder: str, names: list[str]) -> list[str]:
         if name.startswith(".") or not small:
             unwanted.append(name)
     return unwanted
-
-
-def _ids(slug: str | None, what: str) -> list[str]:
-    return [f"{slug}.{n}" for n in getattr(lab(slug), what)] if slug else []
 
 
 def _differences(

@@ -1,5 +1,5 @@
-"""The kernel in which a handed-in notebook runs: Jupyter's kernel with a memory limit. Between two
-cells it judges an answer with the checks that it loaded before the first one.
+"""The kernel in which a handed-in notebook runs: Jupyter's kernel with a memory limit. Between
+cells, it judges answers with the checks that it loaded before the first cell.
 
 The student's code runs in the same process as the checks, so a student can forge a verdict, and
 nothing here prevents that. Use nbgrader for marks that matter.
@@ -21,7 +21,7 @@ SAID = 10_000  # maximum number of characters that a cell may print; a report sh
 
 
 def main(memory: int) -> None:
-    """Run as the kernel until it is asked to end. memory: bytes; 0: no limit."""
+    """Run the kernel until it is asked to end. `memory` is its limit in bytes; 0 means no limit."""
     for each in labs().values():
         each.read()  # the judging code is loaded before the first cell
     kernel = IPKernelApp.instance(outstream_class=f"{__name__}.Stream")
@@ -36,7 +36,7 @@ def main(memory: int) -> None:
 
 def limit_memory(size: int) -> None:
     """Limit this process to `size` bytes, or to its present limit if that is lower."""
-    import resource  # Linux and similar systems
+    import resource  # exists only on Linux and similar systems
 
     if sys.platform != "win32":
         _, most = resource.getrlimit(resource.RLIMIT_AS)
@@ -47,9 +47,9 @@ def limit_memory(size: int) -> None:
 def judging(
     check: Callable[..., Any], space: dict[str, Any]
 ) -> Callable[[dict[str, str]], dict[str, str]]:
-    """Return the function that answers a request {"judge": JSON of "name", "answer", "who", "own"}
-    with {"judge": JSON}: of {"verdict": ..., "own": the name used in the notebook}, or of {"error":
-    why there is no verdict}.
+    """Return the function that answers requests of the form {"judge": JSON}. The JSON of a request
+    has the keys "name", "answer", "who" and "own". The JSON of the reply has the keys "verdict" and
+    "own" (the name used in the notebook), or "error" (the reason why there is no verdict).
     """
 
     def verdict_of(asked: dict[str, str]) -> dict[str, str]:
@@ -64,7 +64,7 @@ def judging(
             verdict = asdict(check(request["name"], answer, who=who))
             # sent as JSON text, since Jupyter cannot send every string
             found = json.dumps({"verdict": verdict, "own": None if own is None else str(own)})
-        except BaseException as error:  # KeyboardInterrupt: the time is up
+        except BaseException as error:  # a KeyboardInterrupt means that the time is up
             found = json.dumps({"error": f"{type(error).__name__}: {error}"[:300]})
         finally:
             course._verdicts = kept

@@ -21,14 +21,14 @@ class Wrong(NamedTuple):
 
 
 class BadFile(ValueError):
-    """Raised for a teacher's file that cannot be used: "FILE, line 3: why", in one sentence."""
+    """Raised if a teacher's file cannot be used. The message is "FILE, line 3: why"."""
 
     def __init__(self, file: str, line: int | None, why: str) -> None:
         super().__init__(f"{file}, line {line}: {why}" if line else f"{file}: {why}")
 
 
 class Text(NamedTuple):
-    """An exercise as written. `parts`: heading -> (line, text) of each other section."""
+    """An exercise as written. `parts` maps the headings of the other sections to (line, text)."""
 
     file: str
     number: str
@@ -39,7 +39,7 @@ class Text(NamedTuple):
     parts: dict[str, tuple[int, str]]
 
     def code(self, part: str) -> tuple[int, str]:
-        """The program in a section, and its first line. BadFile: there is none."""
+        """The program in a section, and its first line. Raises BadFile if there is none."""
         line, text = self.parts.get(part, (0, ""))
         found = CODE.search(text)
         if not found:
@@ -68,7 +68,7 @@ EDIT = re.compile(r"(`+)(.+?)\1 (?:→|->) (?:(`+)(.+?)\3|nothing)(?:, (?=`)|$)"
 
 
 def read(file: Path) -> str:
-    """Read the text of a file. BadFile: it cannot be read, or is not UTF-8."""
+    """Read the text of a file. Raises BadFile if it cannot be read or is not UTF-8."""
     try:
         return file.read_text(encoding="utf-8-sig")
     except UnicodeDecodeError as error:
@@ -89,7 +89,7 @@ def one_line(text: str) -> str:
 
 
 def exercise(file: str, text: str) -> Text:
-    """Parse an exercise. BadFile: its header is invalid."""
+    """Parse an exercise. Raises BadFile if its header is invalid."""
     places = [found.start() for found in re.finditer("^## ", _blank(text), re.M)]
     head, rest = text[: places[0] if places else None], {}
     for a, b in pairwise([*places, len(text)]):

@@ -5,8 +5,8 @@ from urllib.parse import quote
 
 
 class Note(str):
-    """A string that displays itself without quotes. `file` is a file next to the notebook; its name
-    in the text becomes a link to it.
+    """A string that a notebook displays without quotes. `file` is the name of a file next to the
+    notebook; where this name occurs in the text, it becomes a link.
     """
 
     file = ""

@@ -1,6 +1,6 @@
-"""Regenerate the outputs of robokin in a notebook: each is read as a kind and its data, the data
-are validated, and the script comes from this version of robokin. A script in a notebook is never
-copied.
+"""Regenerate the outputs of robokin in a notebook. Only the kind and the data of an output are
+read; the data are validated, and the script comes from this version of robokin. A script in a
+notebook is never copied.
 """
 
 import hashlib
@@ -38,7 +38,7 @@ from .texts import all_visible, visible
 MARK = 'class="robokin-player"'
 LEFT_OUT = Markup("<p>An output of robokin that cannot be read is left out here.</p>")
 ASK = "prediction.ask"
-EXPLORERS = ("joint", "target", "motion", "levers", "plan", "tour")
+EXPLORERS = [get_args(get_type_hints(page)["kind"])[0] for page in get_args(PageExplorer)]
 KINDS: dict[str, Any] = {
     "player.play": Page,
     "joint_curves.show": PageCurves,
@@ -61,8 +61,8 @@ LINE = re.compile(r'<div style="padding-left:([02])em">([^<>]*)</div>')
 
 
 def quiet(text: str) -> str:
-    """HTML or JSON without the sentences that tell a reader of JupyterLab how to start a view: a
-    page of ours starts it by itself.
+    """Return HTML or JSON without the sentences that tell a reader of JupyterLab how to start a
+    view, since our pages start views automatically.
     """
     return text.replace(IN_JUPYTER, "").replace(ASLEEP, "")
 
@@ -71,7 +71,8 @@ def again(text: str, nonce: str, choices: Mapping[str, str] | None = None) -> Ma
     """Return an output of robokin as this version writes it, or None if it is not one.
 
     nonce    the nonce of the page's scripts
-    choices  prediction -> the choice shown on opening; None: the choice in the output
+    choices  a dict that maps predictions to the choices shown when the page opens; None means the
+             choice in the output
     """
     figure = FIGURE.fullmatch(text)
     if figure:
@@ -104,7 +105,7 @@ def again(text: str, nonce: str, choices: Mapping[str, str] | None = None) -> Ma
 
 
 def fits(value: Any, kind: Any) -> bool:
-    """Whether a value from JSON matches a type, such as those in page.py."""
+    """Return whether a value from JSON matches a type, such as those in page.py."""
     origin, inner = get_origin(kind), get_args(kind)
     if kind is Any:
         return True
@@ -173,7 +174,7 @@ def _verdict(name: str, word: str, lines: str) -> Markup:
 
 
 def _question(data: Any, nonce: str, choices: Mapping[str, str] | None) -> str:
-    """Return the HTML of a prediction. ValueError, KeyError, TypeError: there is none."""
+    """Return the HTML of a prediction. Raises ValueError, KeyError or TypeError if this fails."""
     name = data["name"]
     prediction = _prepared(str(name), nonce)
     choice = data.get("choice") if choices is None else choices.get(name)
@@ -195,14 +196,14 @@ class Ready(NamedTuple):
 
 @lru_cache(256)
 def _prepared(name: str, nonce: str) -> Prediction:
-    """A prediction with its facts and view computed, once for each page."""
+    """Return a prediction with its facts and view, which are computed once for each page."""
     prediction: Prediction = find(name, "predictions")
     facts, view = prediction.facts(), Ready(shown(prediction.view(), nonce))
     return replace(prediction, facts=lambda: facts, view=lambda: view)
 
 
 def _choice(prediction: Prediction, choice: Any) -> Any:
-    """Convert a choice from text: a letter, or a number. ValueError: it is neither."""
+    """Convert a choice from text: a letter or a number. Raises ValueError if it is neither."""
     if choice is None or prediction.unit is None:
         return choice
     number = float(choice)

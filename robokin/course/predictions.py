@@ -1,5 +1,5 @@
-"""Predictions: questions to answer before the view that shows the answer opens, in the page and
-without a kernel.
+"""Predictions: questions that a reader answers before the view that shows the answer opens. They
+work in the page, without a kernel.
 """
 
 import functools
@@ -27,7 +27,7 @@ UNGUESSED = "Show the answer without a guess"
 
 @functools.cache
 def worked_out(name: str) -> tuple[str, list[Option], int]:
-    """Return `filled` for the prediction with this id; its facts are computed once."""
+    """Return `filled` for the prediction with this id; its facts are computed only once."""
     return filled(find(name, "predictions"))
 
 
@@ -47,19 +47,20 @@ def chosen(name: str, choice: str) -> str:
 
 
 def predict(name: str, choice: str | float | None = None) -> "Asked":
-    """Show a question to answer before you look, such as "irb140_motion.p2". The view that answers
-    it opens in the page after the choice, or without one, and without a kernel.
+    """Show the question of a prediction, such as "irb140_motion.p2". The view that answers it opens
+    in the page after a choice, or on request without one; this does not need a kernel.
 
-    choice  the letter of an answer, or a number if one is wanted. With it the output shows
-            question, choice and reason, and the report finds it.
+    choice  the letter of an answer, or a number if the question asks for one. If it is given, the
+            output shows the question, the choice and the reason, and the report contains the
+            choice.
 
-    ValueError: no such prediction, or an invalid choice.
+    Raises ValueError if there is no such prediction or the choice is invalid.
     """
     return Asked(name, find(name, "predictions"), choice)
 
 
 class Asked:
-    """A question on a page. It displays itself in a notebook; `save` writes it as a page."""
+    """A question on a page. A notebook displays it; `save` writes it as a page of its own."""
 
     def __init__(self, name: str, prediction: Prediction, choice: str | float | None) -> None:
         self.name, self.choice = name, choice
@@ -113,8 +114,8 @@ class Asked:
         return output("prediction.ask", self.id, inert(self.data), still, nonce)
 
     def save(self, path: str | os.PathLike[str]) -> None:
-        """Write one self-contained page, whole or not at all. ValueError: not a .html file, or an
-        existing file that is not ours.
+        """Write one self-contained page, atomically. Raises ValueError if `path` does not end in
+        .html or is an existing file that is not ours.
         """
         from ..show.saving import save
 

@@ -1,5 +1,5 @@
-"""Control a judging kernel from outside: start it, let it work within a time limit, and end it with
-all processes that it has started. `kernel.py` is the code inside it.
+"""Control a judging kernel from outside: start it, let it work within a time limit, and end it
+together with all processes that it has started. `kernel.py` is the code that runs inside it.
 
 Limits are in CPU time of the kernel and its child processes, so that no verdict depends on the load
 of the machine. Sleeping takes no CPU time, so there is also a wall-clock limit, `SLOWER` times as
@@ -30,7 +30,7 @@ from .texts import ALL_BUT_HALVES, all_visible
 
 SLOWER = 10
 GRACE = 5.0  # seconds after an interrupt before the kernel is killed
-LOOK = 0.1  # minimum seconds between two checks of the CPU time
+LOOK = 0.1  # minimum interval in seconds between two checks of the CPU time
 START = 600  # wall-clock seconds for a kernel to start
 LAST = 20  # wall-clock seconds for the output of a cell to arrive after its end
 TEXT = 5_000  # maximum number of characters of text that a cell may show in the page
@@ -47,8 +47,8 @@ _starting = threading.Lock()  # jupyter_client's list of free ports is not threa
 class Ended(NamedTuple):
     """How a piece of work ended.
 
-    how   "in time", "stopped" by an interrupt, "killed" with the kernel, "dead": it killed the
-          kernel, or "unread": nbclient cannot read the messages
+    how   "in time", "stopped" (by an interrupt), "killed" (with the kernel), "dead" (it killed the
+          kernel) or "unread" (nbclient cannot read its messages)
     slow  whether it was stopped by the wall-clock limit rather than the CPU limit
     """
 
@@ -70,16 +70,17 @@ class Kernel:
         with contextlib.suppress(psutil.Error):
             for each in (self.process, *self.process.children(recursive=True)):
                 with contextlib.suppress(psutil.Error):
-                    used += sum(each.cpu_times()[:4])  # its own time and that of its ended children
+                    # the process's own time and that of its children that have ended
+                    used += sum(each.cpu_times()[:4])
         self.used = max(self.used, used)  # the last value remains after the process has ended
         return self.used
 
     async def run(self, cell: Any, k: int, limit: float) -> Ended:
-        """Run a cell and store its outputs in it. limit: seconds of CPU time."""
+        """Run a cell and store its outputs in it. `limit` is CPU time in seconds."""
         return await self._within(limit, self.client.async_execute_cell(cell, k))
 
     async def ask(self, request: str, limit: float) -> tuple[Ended, Any]:
-        """Return the answer of the kernel's `judging`, or None. limit: seconds of CPU time."""
+        """Return the reply of `judging` in the kernel, or None. `limit` is CPU time in seconds."""
         message = self.client.kc.execute(  # type: ignore[union-attr]
             "", silent=True, store_history=False, user_expressions={"judge": request}
         )
@@ -94,7 +95,7 @@ class Kernel:
 
     async def _within(self, limit: float, work: Awaitable[Any]) -> Ended:
         task = asyncio.ensure_future(work)
-        # asyncio would log an exception that nobody retrieves
+        # without this, asyncio logs exceptions that are never retrieved
         task.add_done_callback(lambda ended: ended.cancelled() or ended.exception())
         how, slow = "in time", False
         try:
@@ -133,8 +134,9 @@ class Kernel:
 
 @contextlib.asynccontextmanager
 async def running(notebook: Any, place: Path, memory: int, cut: set[int]) -> AsyncIterator[Kernel]:
-    """Start a kernel for a notebook in the folder `place`. memory: bytes, 0: no limit; `cut`
-    collects the cells with too much output. OSError: it does not start.
+    """Start a kernel for a notebook in the folder `place`. `memory` is its limit in bytes (0 means
+    no limit); `cut` collects the cells with too much output. Raises OSError if the kernel does not
+    start.
     """
     specs = Specs()
     specs.memory = memory

@@ -17,8 +17,8 @@ class Option(NamedTuple):
     text       the answer; for a number to type, the number from the facts: "{tool:.0f}"
     reason     why it is right or wrong
     confusion  the name of the confusion behind a wrong answer; None for the right one
-    second     for a wrong answer: a second case that shows it
-    name       a short name, which remains valid if options change places
+    second     for a wrong answer: a second case that shows the confusion
+    name       a short name, which remains valid if the options are reordered
     """
 
     text: str
@@ -34,12 +34,14 @@ class Prediction:
 
     Computed `facts` are filled into every text: "{most:.0f} mm".
 
-    question  in two or three sentences
-    options   three or four answers, one of them right; for a number to type (with a `unit`): the
-              right one and those of the confusions, which are hidden
-    facts     () -> the numbers behind all texts
-    right     facts -> the index of the right option, from 0, always computed
-    view      () -> the view after the choice: an `Output` or a `Figure` of robokin.show, or text
+    question  two or three sentences
+    options   three or four answers, one of them right; if a number is to be typed (there is a
+              `unit`), the right number and those of the confusions, which are hidden
+    facts     a function that returns the numbers for all texts
+    right     a function that computes the index of the right option, counting from 0, from the
+              facts
+    view      a function that returns the view shown after the choice: an `Output` or a `Figure` of
+              robokin.show, or text
     unit      the unit of a number to type; `within`: the relative tolerance
     optional  whether it is in the optional part of the lab
     """
@@ -73,10 +75,10 @@ def filled(prediction: Prediction) -> tuple[str, list[Option], int]:
 def chosen_option(
     prediction: Prediction, options: Sequence[Option], right: int, choice: Any
 ) -> int:
-    """The index of the option for a choice, -1 for a number that matches none. A choice is a
-    number, "b", or "b: joint 3": an option with that name comes first, since options may have
-    changed places. ValueError: not a letter of an option or a number, whichever the prediction
-    wants.
+    """Return the index of the chosen option, or -1 for a number that matches none. A choice is a
+    number, "b", or "b: joint 3"; a name takes precedence over the letter, since the options may
+    have been reordered. Raises ValueError if the choice is not the letter of an option (or not a
+    number, if the prediction asks for one).
     """
     if prediction.unit is None:
         letters = list(LETTERS[: len(options)])
@@ -99,7 +101,7 @@ def _near(x: float, value: float, within: float) -> bool:
 
 # --- Predictions in Markdown ----------------------------------------------------------------------
 
-HEAD = re.compile(r"(p\d+)(?:, a number in (.+?), within ([\d.]+) %)?(, optional)?")
+HEAD = re.compile(r"(?:\w+\.)?(p\d+)(?:, a number in (.+?), within ([\d.]+) %)?(, optional)?")
 ANSWER = re.compile(r"`([^`]+)` \*\*(.+?)\*\* (.*?)(?: \*([^*]+):\*(?: (.*))?)?")
 
 
@@ -113,7 +115,8 @@ def prediction(
     file: str, line: int, heading: str, text: str, code: Mapping[str, Any]
 ) -> tuple[str, Prediction]:
     """Parse a prediction from its number, its section and the names of its Python file: for p1,
-    `p1()` returns its facts, with the name of the right answer as "right". BadFile: something is
+    `p1()` returns its facts, with the name of the right answer as "right". A prediction that has
+    moved here from another lab has its whole id in the heading. Raises BadFile if something is
     missing.
 
     ## p5, a number in mm/s, within 2 %

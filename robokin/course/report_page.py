@@ -1,8 +1,9 @@
-"""A student's lab as one page to hand in: the student, the verdicts on the exercises, the
-predictions, and below them the lab itself, run again, with working views and without a network.
+"""A student's lab as one page to hand in: the student's name, the verdicts on the exercises, the
+predictions, and below them the lab itself, which has been run again. Its views work without a
+network.
 
 A report is a file that its author can edit. To be sure, judge the notebook again (`summary` does);
-`kernel.py` says how reliable that is.
+`kernel.py` explains how reliable that is.
 """
 
 import os
@@ -31,7 +32,7 @@ from .texts import all_visible, visible
 from .variants import normalised, variant
 
 WORDS = 2_000  # maximum number of characters in one text of the header
-KINDS = {  # state -> the class that gives its colour
+KINDS = {  # the class that gives each state its colour
     **dict.fromkeys(("holds", "right"), "holds"),
     **dict.fromkeys(("does not hold", "failed", "not judged", "not so"), "not"),
 }
@@ -70,8 +71,8 @@ STYLE = f"""\
 
 def report(path: Path, who: str, folder: Path, limits: Limits = LIMITS) -> Path:
     """Judge the notebook at `path` again, write its report into `folder` and return its path.
-    ValueError: not a notebook, no name, or an existing file that is not this student's report of
-    it.
+    Raises ValueError if it is not a notebook, `who` is empty, or there is a file in the way that is
+    not this student's report on this notebook.
     """
     if not who.strip():
         raise ValueError(f"name: wanted a name, got {who!r}")
@@ -103,7 +104,7 @@ def told(handed: HandedIn, who: str, judged: Judged) -> dict[str, Any]:
 
 
 def objectives(data: dict[str, Any]) -> list[tuple[str, str]]:
-    """(objective, state) for each objective of the lab: "holds", "begun" or "not yet"."""
+    """Return each objective of the lab with its state: "holds", "begun" or "not yet"."""
     found = []
     texts = lab(data["lab"]).objectives if data["lab"] else ()
     for k, text in enumerate(texts, 1):
@@ -115,25 +116,27 @@ def objectives(data: dict[str, Any]) -> list[tuple[str, str]]:
 
 
 def exercise_title(name: str) -> str:
-    """The title of the exercise with an id."""
+    """The title of the exercise with this id."""
     return str(find(name, "exercises").title)
 
 
 def page_of(data: dict[str, Any], notebook: Any, folder: Path) -> str:
-    """Return the page: the report, and the notebook with its outputs. Pictures are in `folder`.
-    Outputs that could not be shown are added to the data's remarks.
+    """Return the page: the report, and the notebook with its outputs. Pictures are read from
+    `folder`. Outputs that cannot be shown are noted in the remarks of the data.
     """
     choices = {each["id"]: each["choice"] for each in data["predictions"] if each["choice"]}
     view = View(folder, choices, lenient=True)
     cells = view.cells(notebook)
     data["remarks"] += view.remarks
-    # data that `report_data` reads; despite the tag it is not a script
+    # `report_data` reads these data; despite the tag, they are not a script
     header = f"<style>{STYLE}</style>\n{DATA}{inert(all_visible(data))}</script>\n{_header(data)}"
     return page(cells, _title(data), view.nonce, header)
 
 
 def portable(text: str) -> str:
-    """Make text fit for file names on any system; keep letters of all scripts, digits and -."""
+    """Convert text so that it is valid in a file name on any system. Letters of all scripts, digits
+    and hyphens are kept.
+    """
     text = unicodedata.normalize("NFC", text)
     kept = "".join(c if c == "-" or unicodedata.category(c)[0] in "LMN" else "_" for c in text)
     short = re.sub("_+", "_", kept).encode(errors="ignore")[:100].decode(errors="ignore")
@@ -141,7 +144,7 @@ def portable(text: str) -> str:
 
 
 def _refuse_to_overwrite(to: Path, handed: HandedIn, who: str) -> None:
-    """Raise ValueError if another file is there. Called before a kernel runs for minutes."""
+    """Raise ValueError if another file is there. We check this before running a kernel."""
     if not to.parent.is_dir():
         raise ValueError(f"to: wanted a folder that exists, got {str(to.parent)!r}")
     if not to.exists() and not to.is_symlink():

@@ -1,10 +1,10 @@
-"""Read the data of a report from its page and validate them: anybody can edit a report, and it
-contains the results of a student's code.
+"""Read the data of a report from its page and validate them, since anybody can edit a report, and
+it contains the results of a student's code.
 
 Validated data contain only ids of the lab's own exercises and predictions; an exercise's task and
 objective come from robokin. Every text has a limited length, and invisible characters are written
-as escapes, so that nothing in it can hide, break a line of a table or change its direction. It is
-still a stranger's text, and a page must escape it.
+as escapes, so that no text can contain hidden characters, break a line of a table or change the
+direction of writing. The texts are still untrusted, and a page must escape them.
 """
 
 import json
@@ -13,7 +13,7 @@ from datetime import datetime
 from typing import Any
 
 from .._validate import short
-from .book import MORE, find, lab, labs
+from .book import MORE, find, home, ids, labs
 from .texts import visible
 from .variants import normalised
 
@@ -27,8 +27,8 @@ JOINERS = "\u200c\u200d"  # invisible characters that names in Persian or Hindi 
 
 
 def report_data(text: str) -> dict[str, Any] | None:
-    """Return the data in the page of a report, or None if it is not a report. ValueError: it is a
-    broken report.
+    """Return the data in the page of a report, or None if it is not a report. Raises ValueError if
+    it is a broken report.
     """
     start = text.find(DATA)
     if start < 0:
@@ -46,8 +46,8 @@ def report_data(text: str) -> dict[str, Any] | None:
 
 
 def validated(data: Any) -> dict[str, Any]:
-    """Return a report's data in the form of version 2; version 1 lacks the times of guesses and
-    later guesses. ValueError: they are not the data of a report.
+    """Return a report's data in the form of version 2; version 1 lacks later guesses and the times
+    of guesses. Raises ValueError if they are not the data of a report.
     """
     if not isinstance(data, dict) or data.get("report") not in (1, 2):
         raise ValueError("its data are not in a format that this version of robokin knows")
@@ -124,18 +124,27 @@ def _known(
     what: str,
     checked: Callable[[dict[str, Any]], dict[str, Any]],
 ) -> list[dict[str, Any]]:
-    """The entries for the lab's exercises or predictions, in the order of the lab."""
-    known = [f"{slug}.{number}" for number in getattr(lab(slug), what)] if slug else []
+    """The entries for the lab's exercises or predictions, in the order of the lab. An older report
+    may contain predictions that have moved to another lab: those that were made come last.
+    """
+    known = ids(slug, what) if slug else []
     found: dict[str, dict[str, Any]] = {}
     for each in _list(data, what):
         name = each.get("id") if isinstance(each, dict) else None
-        if not isinstance(name, str) or name not in known or name in found:
+        if not isinstance(name, str) or name in found or not _belongs(name, slug, what):
             raise ValueError(f"{what}: wanted each id of the lab {slug} once, got {short(name)}")
         try:
             found[name] = checked(each)
         except ValueError as error:
             raise ValueError(f"{name}: {error}") from None
-    return [found[name] for name in known if name in found]
+    late = [name for name in found if name not in known and found[name]["choice"] is not None]
+    return [found[name] for name in [*known, *late] if name in found]
+
+
+def _belongs(name: str, slug: str | None, what: str) -> bool:
+    """Whether an exercise or a prediction belongs to a lab, or did before it moved."""
+    own, from_here = home(name), name.startswith(f"{slug}.")
+    return own in labs() and (own == slug or from_here) and name in ids(own, what)
 
 
 def _one_of(data: dict[str, Any], name: str, known: tuple[Any, ...]) -> Any:

@@ -15,7 +15,7 @@ Program = Callable[..., Any]
 
 
 def _numbers(change: Program) -> Program:
-    """Apply `change` to a numeric result. ValueError: it is not numeric."""
+    """Apply `change` to a numeric result. Raises ValueError if it is not numeric."""
 
     def changed(value: Any) -> Any:
         if isinstance(value, (Transform, Quaternion, str, bool)) or value is None:
@@ -146,7 +146,7 @@ INPUTS = (
 
 
 def fed(case: tuple[Any, ...], i: int, change: Program) -> tuple[Any, ...]:
-    """The inputs of a case with one of them changed. TypeError: that one is not numeric."""
+    """The inputs of a case with input i changed. Raises TypeError if this input is not numeric."""
     value = case[i]
     if isinstance(value, (float, int)) and not isinstance(value, bool):
         value = float(value)

@@ -1,15 +1,16 @@
-"""Collect handed-in work for the teacher's table: reports are used as they are, notebooks are
+"""Collect handed-in work for the teacher's table: reports are used as they are, and notebooks are
 judged again (`judge`), several at the same time.
 
-A report names its student. A notebook's student is the part of the file name that is not the lab's
-("03_irb140_motion Ada.ipynb"), otherwise the name of its folder. Individual numbers are those of
-the name in the notebook, since folders seldom have the names that students use; a remark says so if
-the names differ. If a student has two files for one lab, the newer one counts, by the report's date
-or the notebook's time. If they are equally new, like copies of one page, the one in a folder with
-the student's name counts, otherwise the first.
+A report contains its student's name. For a notebook, the name is the part of the file name that is
+not the lab's name ("03_irb140_motion Ada.ipynb"), otherwise the name of its folder. Individual
+numbers are those of the name in the notebook, since folder names seldom match the names that
+students use; if the names differ, a remark says so. If a student has two files for one lab, the
+newer one counts, by the date of the report or the modification time of the notebook. If they are
+equally new, like copies of one page, the one in a folder with the student's name counts, otherwise
+the first.
 
 All handed-in data are hostile until they are validated (`reported`), and are escaped when written
-(`summary_pages`). A fault in one file does not stop the others.
+(`summary_pages`). A fault in one file does not affect the others.
 """
 
 import os
@@ -32,13 +33,14 @@ from .reported import NAME, TEXT, counted, report_data, validated
 from .texts import visible
 from .variants import normalised
 
-LARGE = 50_000_000  # maximum number of bytes in a file; a report has a tenth of this
+LARGE = 50_000_000  # maximum number of bytes in a file; a report has about a tenth of this
 
 
 @dataclass(frozen=True)
 class Entry:
-    """The work of one student for one lab. `file`: its path below the folder, as text; `data`:
-    validated, as in a report; `handed`: the notebook, until it is judged; `judged`: whether it was.
+    """The work of one student for one lab. `file` is its path relative to the folder, as text;
+    `data` are validated data as in a report; `handed` is the notebook, kept until it is judged;
+    `judged` says whether it has been judged.
     """
 
     who: str
@@ -56,7 +58,7 @@ class Entry:
 
     @property
     def objectives(self) -> list[tuple[str, str]]:
-        """(objective, state) of each objective: "holds", "begun" or "not yet"."""
+        """Each objective with its state: "holds", "begun" or "not yet"."""
         return objectives(self.data)
 
     @property
@@ -82,8 +84,8 @@ class Entry:
 
 @dataclass(frozen=True)
 class LeftOut:
-    """A file that is not in the table, its student, and the reason. `wrong`: it cannot be used;
-    otherwise it does not belong in the table.
+    """A file that is not in the table, its student, and the reason. `wrong` is True if the file
+    cannot be used, and False if it does not belong in the table.
     """
 
     file: str
@@ -106,10 +108,11 @@ def summary(
     tell: Callable[[int, int, str], None] = lambda done, of, line: None,
     ours: Callable[[Path], bool] = lambda path: False,
 ) -> Summary:
-    """Collect the files below `folder`, except hidden files and folders and those that are `ours`:
-    the pages of a summary. Symbolic links are not followed. `tell` is called with the number of
-    finished labs, their total, and a line: first with 0 if there are notebooks, then after each
-    student's lab. ValueError: not a folder.
+    """Collect the files in `folder` and its subfolders, except hidden files and folders and the
+    pages of a summary, for which `ours` returns True. Symbolic links are not followed. `tell` is
+    called with the number of finished labs, their total number, and a line of text: first with 0 if
+    there are notebooks, then after each student's lab. Raises ValueError if `folder` is not a
+    folder.
     """
     if not folder.is_dir():
         raise ValueError(f"folder: wanted an existing folder, got {str(folder)!r}")
@@ -124,7 +127,7 @@ def summary(
                 found[normalised(entry.who), entry.lab].append(entry)
             else:
                 made.left_out.append(_left(inside, entry, problem is not None))
-        except Exception as error:  # a file can contain anything
+        except Exception as error:  # a file may contain anything
             made.left_out.append(_left(inside, _reason(error), True))
     kernels = side_by_side(limits.memory)
     if notebooks := sum(any(each.handed for each in several) for several in found.values()):
@@ -147,16 +150,17 @@ def summary(
 
 
 def side_by_side(memory: int) -> int:
-    """The number of notebooks to judge at the same time, at least one: one per core, and one for
-    each `memory` bytes of free memory.
+    """The number of notebooks to judge at the same time: at most one per core and one for each
+    `memory` bytes of free memory, but at least one.
     """
     cores = len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count()
     return max(1, min(cores or 1, int(psutil.virtual_memory().available // max(memory, 1))))
 
 
 def who_of(inside: Path) -> str:
-    """The student of a file, from its path below the folder: the part of its name that is not a
-    lab's, otherwise the nearest folder that is not named after a lab, otherwise its name.
+    """The name of a file's student, from its path relative to the folder: the part of the file name
+    that is not a lab's name, otherwise the name of the nearest folder that is not named after a
+    lab, otherwise the file name.
     """
     for k, part in enumerate((inside.stem, *reversed(inside.parent.parts))):
         slug = re.search("|".join(labs()), part, re.I)
@@ -172,8 +176,9 @@ def who_of(inside: Path) -> str:
 
 
 def _files(folder: Path) -> Iterator[tuple[Path, str | None]]:
-    """(path below the folder, reason why it cannot be read or None) for all pages and notebooks,
-    and for links to folders and unreadable folders, which may hide some.
+    """Yield the path, relative to the folder, and None or the reason why it cannot be read, for all
+    pages and notebooks. Links to folders and unreadable folders are included, since they may
+    contain some.
     """
     todo = [Path()]
     while todo:
@@ -234,7 +239,7 @@ def _newest(several: list[Entry], limits: Limits) -> tuple[Entry | None, list[Le
                     told(entry.handed, entry.who, judge_notebook(entry.handed, None, limits))
                 )
                 entry = replace(entry, data=data, handed=None, judged=True)
-        except Exception as error:  # a student's code can return anything
+        except Exception as error:  # a student's code may return anything
             left_out.append(LeftOut(entry.file, entry.who, _reason(error), True))
             continue
         for each in several:
@@ -253,7 +258,7 @@ def _newest(several: list[Entry], limits: Limits) -> tuple[Entry | None, list[Le
 
 
 def _at_home(entry: Entry) -> bool:
-    """Whether a folder that contains the entry's file has the student's name."""
+    """Return whether a folder that contains the entry's file has the student's name."""
     name, folders = normalised(entry.who), normalised(f"/{Path(entry.file).parent}")
     return bool(re.search(rf"(?<![^\W_]){re.escape(name)}(?![^\W_])", folders))
 

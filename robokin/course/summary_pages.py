@@ -1,7 +1,7 @@
 """The teacher's table as files: summary.csv, summary.html and a page for each row.
 
-The pages come from templates that escape all text. They have no scripts: their policy forbids
-scripts and requests and permits only one style.
+The pages come from templates that escape all text. They have no scripts: their content security
+policy forbids scripts and requests and permits only one style sheet.
 """
 
 import base64
@@ -23,7 +23,7 @@ from markupsafe import Markup, escape
 
 from ..show.palette import ALARM, AXIS_COLORS, PAGE
 from ..show.saving import write_page
-from .book import find, lab, labs, titled
+from .book import find, home, lab, labs, titled
 from .predictions import chosen, worked_out
 from .report_page import exercise_title, portable
 from .reported import counted
@@ -67,7 +67,9 @@ FORMULA = re.compile("(^|[;,|\"'] ?)(?=[=+@\uff1d\uff0b\uff0d\uff20-])")
 
 
 def mistakes(made: Summary) -> list[tuple[str, str, list[str]]]:
-    """(exercise, mistake, who made it), for each exercise the most frequent first."""
+    """Return (exercise, mistake, names of students), the most frequent mistakes of each exercise
+    first.
+    """
     found: dict[tuple[str, str], list[str]] = defaultdict(list)
     for entry in made.entries:
         for each in entry.data["exercises"]:
@@ -77,8 +79,8 @@ def mistakes(made: Summary) -> list[tuple[str, str, list[str]]]:
 
 
 def confusions(made: Summary) -> list[tuple[str, str, list[str]]]:
-    """(prediction, the confusion behind a wrong first guess, who made it), the most frequent
-    first.
+    """Return (prediction, the confusion behind a wrong first guess, names of students), the most
+    frequent confusions of each prediction first.
     """
     found: dict[tuple[str, str], list[str]] = defaultdict(list)
     for entry in made.entries:
@@ -92,8 +94,8 @@ def _most(found: dict[tuple[str, str], list[str]]) -> list[tuple[str, str, list[
     rows = [(name, what, who) for (name, what), who in found.items()]
 
     def place(row: tuple[str, str, list[str]]) -> Any:
-        slug, _, number = row[0].partition(".")
-        place = list(labs()).index(slug), int(number.lstrip("p"))  # p9 before p10
+        number = row[0].partition(".")[2].lstrip("p")
+        place = list(labs()).index(home(row[0])), int(number)  # p9 before p10
         return *place, -len(row[2]), row[1]
 
     return sorted(rows, key=place)
@@ -139,17 +141,17 @@ def csv_of(made: Summary, points: bool = True) -> str:
 
 
 def harmless(text: str) -> str:
-    """Put the text of a cell on one line that no spreadsheet takes for a formula, even if its
-    separator is not the comma.
+    """Put the text of a cell on one line that no spreadsheet interprets as a formula, even if the
+    separator is not a comma.
     """
     return FORMULA.sub(r"\1'", " ".join(text.split()))
 
 
 def page_of(made: Summary, links: list[str], points: bool = True) -> str:
-    """The overview page: how many exercises are solved, with a row for each student and a column
-    for each lab; for each lab, how many students pass each exercise, and a row for each student;
-    mistakes and predictions; files that were left out. `links`: the links to the pages of the
-    entries.
+    """Return the overview page. Its first table has the number of solved exercises, with a row for
+    each student and a column for each lab. For each lab, it has the number of students who pass
+    each exercise, and a row for each student. Tables of mistakes, predictions and files that were
+    left out follow. `links` are the links to the pages of the entries.
     """
     rows = list(zip(made.entries, links, strict=True))
     students: dict[str, dict[str, tuple[Entry, str]]] = defaultdict(dict)
@@ -203,7 +205,7 @@ def _templates() -> jinja2.Environment:
         trim_blocks=True,
     )
     pages.filters |= {"words": _words, "asked": _asked, "time": _time, "kind": _kind}
-    pages.filters |= {"titled": titled, "title": exercise_title}
+    pages.filters |= {"home": home, "titled": titled, "title": exercise_title}
     pages.globals |= {"chosen": chosen, "counted": counted}
     return pages
 
@@ -239,8 +241,8 @@ def _number(each: dict[str, Any]) -> str:
 
 
 def places(folder: Path) -> tuple[Path, Path, Path]:
-    """The paths of the table, the page and the students' pages. ValueError: there is no folder, or
-    another file is in the way.
+    """The paths of the table, the page and the students' pages. Raises ValueError if there is no
+    folder or another file is in the way.
     """
     if not folder.is_dir():
         raise ValueError(f"to: wanted a folder that exists, got {str(folder)!r}")
@@ -255,7 +257,7 @@ def places(folder: Path) -> tuple[Path, Path, Path]:
 
 def write(made: Summary, folder: Path, points: bool = True) -> tuple[Path, Path]:
     """Write summary.csv and summary.html into `folder`, and next to them the students' pages, which
-    replace those of an earlier summary. ValueError: as in `places`.
+    replace those of an earlier summary. Raises ValueError as `places` does.
     """
     table, page, pages = places(folder)
     if made.entries:
@@ -275,7 +277,7 @@ def write(made: Summary, folder: Path, points: bool = True) -> tuple[Path, Path]
 
 
 def is_ours(path: Path, folder: Path) -> bool:
-    """Whether a page was written into `folder` by `write`."""
+    """Return whether a page was written into `folder` by `write`."""
     place, top = path.resolve(), folder.resolve()
     if place == top / "summary.html":
         return _begins(path, BEGIN)
@@ -283,7 +285,7 @@ def is_ours(path: Path, folder: Path) -> bool:
 
 
 def _free(pages: Path, name: str, taken: Collection[str]) -> Path:
-    """A path for a page that is not taken by a foreign file or another student's page."""
+    """A path for a page at which there is no foreign file and no other student's page."""
     path, k = pages / f"{name}.html", 1
     while path.name.casefold() in taken or (os.path.lexists(path) and not _begins(path, SHEET)):
         k += 1
@@ -292,7 +294,7 @@ def _free(pages: Path, name: str, taken: Collection[str]) -> Path:
 
 
 def _begins(path: Path, begin: str) -> bool:
-    """Whether a path is a regular file, not a link, with this text near its beginning."""
+    """Return whether a path is a regular file, not a link, with this text near its beginning."""
     if path.is_symlink() or not path.is_file():
         return False
     with path.open("rb") as file:
@@ -300,7 +302,7 @@ def _begins(path: Path, begin: str) -> bool:
 
 
 def _write(path: Path, content: bytes) -> None:
-    """Write a file, whole or not at all."""
+    """Write a file atomically."""
     beside = path.with_name(f".{os.urandom(8).hex()}.csv.part")
     try:
         beside.write_bytes(content)

@@ -4,9 +4,9 @@ import functools
 import re
 from typing import Any
 
-# A character class of `re`: control characters, characters that change the direction of writing
-# or end a line, zero-width marks, tags, lone surrogates. Joiners are not in it: Persian, Hindi and
-# emoji need them.
+# A character class of `re`: control characters, characters that change the direction of writing or
+# end a line, zero-width marks, tags and lone surrogates. It does not contain joiners, which
+# Persian, Hindi and emoji need.
 UNSEEN = (
     "\0-\x1f\x7f-\x9f\xad\u061c\u180e\u200b\u200e\u200f\u2028-\u202e\u2060-\u206f\ufeff"
     "\ufff9-\ufffb\ud800-\udfff\U0001bca0-\U0001bca3\U0001d173-\U0001d17a\U000e0000-\U000e007f"
@@ -18,7 +18,8 @@ DEEP = 100  # maximum depth of nested lists
 
 def visible(text: str, kept: str = LINES, most: int | None = None) -> str:
     r"""The text with an escape, such as \x1b or \u202e, for each invisible character. `kept` is a
-    character class of `re` with characters to keep. A text longer than `most` characters is cut.
+    character class of `re` with characters to keep. A text longer than `most` characters is
+    truncated.
     """
     if most is not None and len(text) > most:
         text = f"{text[:most]} ... shortened"
@@ -28,7 +29,9 @@ def visible(text: str, kept: str = LINES, most: int | None = None) -> str:
 
 
 def all_visible(value: Any, kept: str = LINES, depth: int = 0) -> Any:
-    """Apply `visible` to all strings of a JSON value. ValueError: it is nested too deeply."""
+    """Apply `visible` to all strings of a JSON value. Raises ValueError if the value is nested too
+    deeply.
+    """
     if isinstance(value, str):
         return visible(value, kept)
     if not isinstance(value, (dict, list, tuple)):

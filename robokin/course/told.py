@@ -1,4 +1,4 @@
-"""Read numbers from answers, and write them into sentences."""
+"""Read numbers from answers, and format numbers for sentences."""
 
 from typing import Any
 
@@ -12,9 +12,9 @@ RAISED = str.maketrans("-0123456789", "\N{SUPERSCRIPT MINUS}⁰¹²³⁴⁵⁶�
 
 
 def floats(value: Any) -> Floats:
-    """Return a number, or an array or lists of numbers, as an array. TypeError: text such as "0.3",
-    True or False, a complex number that is not real, or anything else that is not a number.
-    ValueError: rows of different lengths.
+    """Return a number, or an array or lists of numbers, as an array. Raises TypeError for text such
+    as "0.3", for True and False, for complex numbers that are not real, and for anything else that
+    is not a number. Raises ValueError if rows have different lengths.
     """
     made = np.asarray(value)
     if made.dtype == object and any(
@@ -29,8 +29,8 @@ def floats(value: Any) -> Floats:
 
 
 def one_number(value: Any) -> float:
-    """Return a single number, even from an array with one element. TypeError or ValueError: it is
-    not a single number.
+    """Return a single number, even from an array with one element. Raises TypeError or ValueError
+    if it is not a single number.
     """
     made = floats(value)
     if made.size != 1:
@@ -39,8 +39,8 @@ def one_number(value: Any) -> float:
 
 
 def apart(a: Any, b: Any, digits: int = 1) -> tuple[str, str]:
-    """Write two numbers, or two rows of numbers, with enough decimals to differ in print; at least
-    `digits`, and no more if they are equal.
+    """Write two numbers, or two rows of numbers, with as many decimals as are needed to tell them
+    apart, but at least `digits`. Equal numbers have `digits` decimals.
     """
     rows = [np.atleast_1d(np.asarray(x, dtype=float)) for x in (a, b)]
     for n in [*range(digits, MOST + 1), digits]:

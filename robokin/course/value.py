@@ -11,7 +11,7 @@ from .markdown import BadFile, Text
 
 
 class Value(Exercise):
-    """An exercise that asks for a value. `code`, the names of the Python file, contains
+    """An exercise that asks for a value. `code`, the names in the Python file, contains
 
     form    (answer, given) -> the answer in the form that `faults` needs; raises a ValueError that
             says what was wanted
@@ -21,9 +21,9 @@ class Value(Exercise):
 
     and may contain
 
-    given   who -> this student's numbers; without it all students have the same task
+    given   (who) -> this student's numbers; without it, all students have the same task
     GOAL    for a pose taken from an explorer: the task that the page checks (page.PageExplorer)
-    plain   answer -> the answer as the case shows it
+    plain   (answer) -> the answer as shown in the case
     holds   (answer, given) -> additional sentences for an answer that passes
     """
 

@@ -1,4 +1,4 @@
-"""A student's own numbers: the same on every machine and for all spellings of the name."""
+"""A student's own numbers: the same on every machine and for every spelling of the name."""
 
 import hashlib
 import random
@@ -9,8 +9,8 @@ from .book import lab as _lab
 
 
 def normalised(who: Any) -> str:
-    """Return a name without differences in case, in spaces or in how accents are typed.
-    ValueError: nothing is left.
+    """Return a name in a form that does not depend on case, spaces or the way accents are typed.
+    Raises ValueError if nothing is left.
     """
     text = unicodedata.normalize("NFKC", str(who)).casefold()
     text = " ".join(unicodedata.normalize("NFKC", text).split())
@@ -20,16 +20,17 @@ def normalised(who: Any) -> str:
 
 
 def dice(lab: str, who: Any) -> random.Random:
-    """Return a random generator for a student in a lab. Draw integers (`randrange`): they are the
-    same on every machine and in every version of Python.
+    """Return a random generator for a student in a lab. Draw only integers (`randrange`), which are
+    the same on every machine and in every version of Python.
     """
     return random.Random(int(hashlib.sha256(f"{lab}\n{normalised(who)}".encode()).hexdigest(), 16))
 
 
 class Numbers(dict[str, Any]):
-    """A student's numbers: `numbers["height"]`. It displays itself as a table with units.
+    """A student's numbers, as in `numbers["height"]`. A notebook displays them as a table with
+    units.
 
-    units  name -> (unit, its size in SI units); values are in SI units
+    units  a dict that maps names to (unit, its size in SI units); the values are in SI units
     """
 
     def __init__(self, values: dict[str, Any], units: dict[str, tuple[str, float]]) -> None:
@@ -49,8 +50,8 @@ def variant(lab: str, who: Any) -> Numbers:
     """Return the numbers of the student `who` (a name or a number) for the design exercise of a
     lab.
 
-    They are the same on every machine; case and spaces make no difference. ValueError: no such lab,
-    a lab without such an exercise, or an empty name.
+    They are the same on every machine; case and spaces make no difference. Raises ValueError if
+    there is no such lab, the lab has no such exercise, or the name is empty.
     """
     given = _lab(lab).given
     if given is None:
@@ -60,5 +61,5 @@ def variant(lab: str, who: Any) -> Numbers:
 
 
 def key(lab: str, names: Any) -> dict[str, Numbers]:
-    """Return the numbers of many students, for the teacher: name -> numbers."""
+    """Return the numbers of many students, by name, for the teacher."""
     return {str(name): variant(lab, name) for name in names}

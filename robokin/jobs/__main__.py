@@ -30,7 +30,8 @@ if sys.platform != "win32":
 LOG = "output.log"
 HELP = """\
 Solve the "visit" and "collect" tasks in a folder: how many points can the
-three-joint arm serve in the time T? Every *.json in FOLDER is a task with the keys
+three-joint arm visit or collect in the time T? Every *.json in FOLDER is a task
+with the keys
 
   L1, L2  lengths of the links, m       p0    start of the tool, m: [x, y, z]
   T       time allowed, s               pi    points, m: [[x, y, z], ...]
@@ -38,20 +39,20 @@ three-joint arm serve in the time T? Every *.json in FOLDER is a task with the k
 
 Three examples are in notebooks/tasks."""
 AFTER = f"""\
-A report on each file, in order of the names, goes to standard output; a file
-that is not a task is skipped, with the reasons. The same goes to {LOG} in the
-working folder, with the joint values and the times of each move (DEBUG). This log
-is replaced by each run, and only one run at a time can write it; no other file is
-written. Progress goes to standard error.
+The reports, in order of the file names, are written to standard output; if a file
+is not a task, the report gives the reasons why it was skipped. The reports are also
+written to {LOG} in the working folder, with the joint values and the times of
+each move (DEBUG). Each run replaces this log, and only one run at a time can write
+it; no other file is written. Progress is shown on standard error.
 
-A key given twice is a reason to skip a file. Unknown keys, speeds that look like
-degrees and moves on which the tool dips under the floor are warnings. A file may
+A file in which a key occurs twice is skipped. Unknown keys, speeds that look like
+degrees and moves on which the tool dips under the floor cause warnings. A file may
 have up to {TASK_LIMIT} points ("visit", or "collect" with p0 on axis 1: {NEAREST_LIMIT}).
-The first {POINTS_SHOWN} points are listed, and {FAULTS_SHOWN} faults or low moves of each kind.
+At most {POINTS_SHOWN} points are listed, and {FAULTS_SHOWN} faults or low moves of each kind.
 
-Exit status: 0    every task solved
-             1    a file skipped, or the output or the log could not be written
-             2    nothing to do: wrong usage, no such folder, no *.json in it
+Exit status: 0    every task was solved
+             1    a file was skipped, or the output or the log could not be written
+             2    nothing to do: wrong usage, no such folder, or no *.json in it
              130  stopped with Ctrl+C"""
 BIG = 1_000_000  # bytes; larger files are announced, since they take longer
 
@@ -210,9 +211,10 @@ def _connect(
 
 
 def _lock_folder(stack: contextlib.ExitStack) -> None:
-    """Lock this folder's log until the stack is closed. OSError: another run holds the lock.
+    """Lock this folder's log until the stack is closed. Raises OSError if another run holds the
+    lock.
 
-    Windows needs no lock, since nobody can remove an open file there. On a file system without
+    Windows needs no lock, since an open file cannot be removed there. If the file system has no
     locks, nothing is locked.
     """
     if sys.platform == "win32":

@@ -1,15 +1,15 @@
-"""A conveyor: which objects on a belt the arms beside it can pick, and when.
+"""A conveyor: find out which objects on a belt the arms beside it can pick, and when.
 
 The belt runs along y at v (m/s). At time 0 object i is offsets[i] metres before the window of the
 first arm, so it reaches the place window[j] at (offsets[i] + window[j] - window[0]) / v. An arm
-waits at its bin, moves to a place in its window, picks the object there and takes it back. Several
-arms stand along the belt, each with its own window, bin and clock; each sees only the objects that
-the arms before it have left.
+waits at its bin, moves to a place in its window, picks the object there and takes it to the bin.
+Several arms stand along the belt, each with its own window, bin and clock; each can pick only the
+objects that the arms before it have left.
 
     arms = serve(spaced(200, 0.15, spread=0.5), 0.12, window, ways, arms=2)
     len(arms[0].objects)
 
-The document ends with the question whether one robot can pick all objects from a conveyor, and
+The document ends with the question whether one robot can pick all objects from a conveyor, but it
 gives no numbers. Source: 000, "Заключение".
 """
 
@@ -20,23 +20,48 @@ import numpy as np
 from .._arrays import ArrayLike, Floats, Ints, Sealed, frozen
 from .._validate import floats, length, number, positive, short, whole
 from ..arms.geometry import ROUNDING
+from ..units import mm
+from .visit_collect import principal_postures, travel_time
 
-# These limits keep every call to a few seconds:
-MOST = 1_000  # greatest number of objects on the belt
-PLACES = 500  # greatest number of places in a window
+# With these limits, every call takes at most a few seconds:
+MOST = 1_000  # maximum number of objects on the belt
+PLACES = 500  # maximum number of places in a window
 ARMS = 100
+
+# The line of lab 14: an arm of the document, its bin and its window, in its own coordinates. The
+# numbers are our choice.
+LINKS = 500 * mm, 400 * mm
+SPEED = 2.0  # of each joint, rad/s
+BIN: Floats = frozen(np.array([150, -450, 250]) * mm)
+ALONG: Floats = frozen(np.linspace(-400, 400, 161) * mm)  # the window, along y
+WINDOW: Floats = frozen(np.stack([0 * ALONG + 600 * mm, ALONG, 0 * ALONG + 50 * mm], axis=-1))
+GAP = 150 * mm  # the mean gap between two objects
+
+
+def ways_from(bin_place: ArrayLike = BIN) -> Floats:
+    """The times of one way from a bin (3,) to each place of `WINDOW`, (161,) in s, for an arm with
+    `LINKS` whose joints reach `SPEED`. Its moves follow the quintic law, whose greatest speed is
+    15/8 of its mean. Raises ValueError if the arm does not reach the bin or the bin is on axis 1.
+    """
+    place = floats(bin_place, "bin_place", 3)
+    stand = principal_postures(*LINKS, place)
+    if place.ndim != 1 or not np.isfinite(stand).all():
+        wanted = "wanted a place (3,) in m that the arm reaches, not on its axis 1"
+        raise ValueError(f"bin_place: {wanted}, got {short(bin_place)}")
+    return 15 / 8 * travel_time(stand, principal_postures(*LINKS, WINDOW), [SPEED] * 3)
 
 
 def spaced(count: int, gap: float, spread: float = 0.0, *, seed: int = 8) -> Floats:
     """The distances of `count` objects from the first window, (count,) in m, increasing.
 
     The gaps before the objects are equally spaced values from gap (1 - spread) to gap (1 + spread),
-    shuffled with `seed`. So `spread` is a fraction of the mean gap: 0 gives even spacing, 1 gives
-    gaps between zero and twice the mean. The mean is exactly `gap`, and the standard deviation is
-    gap * spread / sqrt(3) (times sqrt((count + 1) / (count - 1))). A seed gives the same order of
-    the gaps for every spread, so that points of a curve over `spread` are comparable.
+    shuffled with `seed`. `spread` is therefore a fraction of the mean gap: 0 gives even spacing, 1
+    gives gaps between zero and twice the mean. The mean is exactly `gap`, and the standard
+    deviation is gap * spread / sqrt(3) (times sqrt((count + 1) / (count - 1))). For a given seed,
+    the gaps have the same order for every spread, so that the points of a curve over `spread` are
+    comparable.
 
-    ValueError: a spread outside 0 to 1.
+    Raises ValueError if `spread` is not from 0 to 1.
     """
     count = whole(count, "count", 1, MOST)
     mean = length(gap, "gap")
@@ -55,7 +80,7 @@ class Trips(Sealed):
 
     objects  (k,) the indices in `offsets` of the objects that it picks
     places   (k,) the indices in the arm's window of the places where it picks them
-    leaves   (k,) when it leaves its bin, so as to reach the place together with the object
+    leaves   (k,) when it leaves its bin in order to reach the place together with the object
     meets    (k,) when it picks the object
     backs    (k,) when it is back at its bin and free again
     """
@@ -82,15 +107,15 @@ def serve(
     offsets     (n,) in m, increasing: distances before the first arm's window at time 0
     v           speed of the belt, m/s
     window      (m,) in m, increasing: the places along y where the first arm can pick an object
-    ways        (m,) in s: the time from the arm's bin to each place, and the same for the way back
+    ways        (m,) in s: the time from the arm's bin to each place; the way back takes as long
     arms        the number of equal arms along the belt, `pitch` metres apart
     pitch       at least the window's length (the default), so that no two windows overlap
-    first_come  which rule to use. A free arm picks the object that it can bring back soonest or,
-                with `first_come`, the first object on the belt that it can still reach. It picks an
+    first_come  the rule to use. A free arm picks the object that it can bring back soonest or, with
+                `first_come`, the first object on the belt that it can still reach. It picks an
                 object at the first place where it can be in time.
 
     Both rules are greedy and may pick fewer objects than possible. The arm stands still while it
-    grips, which takes no time. ValueError: wrong shapes, numbers that do not increase.
+    grips, which takes no time. Raises ValueError if a shape is wrong or numbers do not increase.
     """
     reach = _rising(offsets, "offsets", MOST)
     speed = positive(v, "v", "one positive speed in m/s")

@@ -1,9 +1,9 @@
 """Plans that take the three-lever arm past an obstacle while the obstacle moves along a line.
 
-`plan` in `robokin.jobs.obstacles` keeps a clearance from a fixed obstacle; here the arm keeps it
-from a moving one at all times. The obstacle is at H + v t, the arm is in its posture at t, and
-between two postures all joints turn at constant speed. The bound that proves a clearance grows by
-the distance that the obstacle moves in the meantime.
+`plan` in `robokin.jobs.obstacles` keeps a clearance from a fixed obstacle; here, the arm keeps it
+from a moving one at all times. At time t the obstacle is at H + v t. Between two postures, all
+joints turn at constant speed. The bound that proves a clearance also allows for the distance that
+the obstacle moves in the meantime.
 """
 
 from typing import TypeAlias
@@ -36,7 +36,7 @@ from .obstacles.posture_grid import (
 # `way`, `words` and `path` of a plan, and the time of each posture
 Found: TypeAlias = tuple[str, str, Floats, Floats]
 
-# number of ticks that the search looks ahead; in each, the joints can turn by STEP in total
+# number of ticks that the search looks ahead; in each tick, the joints can turn by STEP in total
 TICKS = 120
 
 
@@ -53,16 +53,16 @@ def plan_moving(
     moves with the constant `velocity` (2,) in metres per second.
 
     Returns (plan, times): the plan with its path (k, 3), and the time of each posture (k,), in
-    seconds from now. It tries in this order, by increasing movement: "direct"; "wait" in the start
-    posture, no longer than necessary, and then go directly; "search". All levers keep `distance`
-    (metres; L/7 by default) from the obstacle until the arm arrives; later times belong to the next
-    task. `speed`, in radians per second, limits the sum of the joint speeds, so that a path takes
-    at least S / speed.
+    seconds from now. The ways are tried in order of increasing movement: "direct"; "wait", that is,
+    wait in the start posture, no longer than necessary, and then go directly; "search". All levers
+    stay at least `distance` (in metres; L/7 by default) away from the obstacle until the arm
+    arrives; later times belong to the next task. `speed`, in radians per second, limits the sum of
+    the joint speeds, so that a path takes at least S / speed.
 
     The search is that of `way_round` with time as an additional dimension: at each tick the
     reachable set grows by one step of one joint and shrinks to the postures that are free at that
-    tick. It looks `TICKS` ticks of 5 degrees / speed ahead. ValueError: a posture outside the
-    limits.
+    tick. It looks ahead by `TICKS` ticks of 5 degrees / speed. Raises ValueError if the posture is
+    outside the limits.
     """
     instance(arm, ThreeLeverArm, "arm")
     start, K1 = read_start(arm, posture, "posture"), read_point(target, "target")

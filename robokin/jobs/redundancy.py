@@ -1,10 +1,11 @@
-"""Methods that choose the posture of a redundant arm: those that source 003 describes in part I,
-and a race of all of them against the method of source 003 itself, the least movement.
+"""Methods that choose the posture of a redundant arm. Source 003 describes several of them in part
+I; `race` compares them with the document's own method, the least movement.
 
 Each method takes an arm of three levers, targets (..., 2) in metres and the previous postures (...,
 3), and returns postures (..., 3) at the targets, in radians. A row is NaN if the method fails, that
-is, does not arrive within the limits of 0 to 180 degrees. The path of the gripper is not part of
-the answer: from the previous posture to the new one all joints turn at constant speed.
+is, if it does not reach the target within the limits of 0 to 180 degrees. The path of the gripper
+is not part of the result: from the previous posture to the new one, all joints turn at constant
+speed.
 """
 
 from collections.abc import Callable, Mapping
@@ -21,14 +22,14 @@ from .obstacles import distances
 
 Method: TypeAlias = Callable[[ThreeLeverArm, ArrayLike, ArrayLike], Floats]
 
-STRIDE = 0.1  # greatest step of the gripper, in lever lengths
-TURN = 10 * deg  # greatest rotation of a joint in one step
+STRIDE = 0.1  # maximum step of the gripper, in lever lengths
+TURN = 10 * deg  # maximum rotation of a joint in one step
 STEPS = 200  # a motion that has not arrived after this many steps has failed
 ARRIVED = 1e-9  # lever lengths; a gripper at most this far from the target has arrived
-FLAT = 1e-4  # lever lengths; this damping makes the pseudo-inverse exist for a stretched arm
+FLAT = 1e-4  # lever lengths; with this damping the pseudo-inverse exists for a fully extended arm
 NEAR = 0.5  # lever lengths; an obstacle farther away than this stops no joint
-PULL = 0.1  # fraction of the distance to the middle of its limits that a joint aims for in one step
-SLACK = 1e-9  # rad; an excess over a limit of no more than this is a rounding error
+PULL = 0.1  # a joint aims to cover this fraction of its distance from mid-range in one step
+SLACK = 1e-9  # rad; an excess over a limit of no more than this counts as a rounding error
 SAME = 1e-12  # lever lengths; distances that differ by less than this count as equal
 
 
@@ -50,10 +51,10 @@ class RaceResult(NamedTuple):
 def race(
     methods: Mapping[str, Method], arm: ThreeLeverArm, targets: ArrayLike, start: ArrayLike
 ) -> dict[str, RaceResult]:
-    """Run every method on the same targets (n, 2) in the same order, each task from the posture in
-    which the previous one ended, the first from `start` (3,). If a method fails, the
-    method of least movement reaches the target instead, so that the sums of turns are comparable.
-    Returns a dict of name -> `RaceResult`.
+    """Run every method on the same targets (n, 2) in the same order. Each task begins in the
+    posture in which the previous one ended, and the first one in `start` (3,). If a method fails,
+    the method of least movement reaches the target instead, so that the sums of turns are
+    comparable. Returns a dict that maps the name of each method to its `RaceResult`.
     """
     instance(arm, ThreeLeverArm, "arm")
     targets, start = floats(targets, "targets", 2), floats(start, "start", 3)
@@ -61,8 +62,8 @@ def race(
         got = f"{targets.shape} and {start.shape}"
         raise ValueError(f"targets and start: wanted shapes (n, 2) and (3,), got {got}")
     if not isinstance(methods, Mapping) or not all(map(callable, methods.values())):
-        raise ValueError(f"methods: wanted a dict of name -> function, got {short(methods)}")
-    # a repeated function would share its random numbers
+        raise ValueError(f"methods: wanted a dict of functions by name, got {short(methods)}")
+    # a function with two names would share its random numbers
     if len(set(map(id, methods.values()))) < len(methods):
         raise ValueError(f"methods: wanted each function only once, got {short(methods)}")
     runs = {}
@@ -82,8 +83,8 @@ def race(
 
 
 def methods(obstacle: ArrayLike, seed: int) -> dict[str, Method]:
-    """All methods for `race`, by name: the distance rule with this obstacle (2,), the random choice
-    with this seed.
+    """All methods for `race`, by name. The distance rule uses `obstacle` (2,), the random choice
+    `seed`.
     """
     return {
         "least movement": least_movement,
@@ -107,19 +108,20 @@ def least_movement(arm: ThreeLeverArm, target: ArrayLike, previous: ArrayLike) -
 
 
 def pseudo_inverse(arm: ThreeLeverArm, target: ArrayLike, previous: ArrayLike) -> Floats:
-    """The gripper goes straight to the target in small steps e, and the joints move by dq = J+ e,
-    which has the smallest sum of squares of all dq that make the step. The method ignores limits: a
-    joint stops at its limit, and the others may get stuck. Source: 003, I.2.1; Siciliano et al.,
-    Robotics, 2009, section 3.5.1.
+    """The gripper goes straight to the target in small steps e. In each step, the joints move by dq
+    = J+ e, which has the smallest sum of squares of all dq that produce e. The method ignores
+    limits: a joint stops at its limit, and the others may get stuck. Source: 003, I.2.1; Siciliano
+    et al., Robotics, 2009, section 3.5.1.
     """
     target, previous = _asked(arm, target, previous)
     return _go(arm, target, previous, lambda q, J, e: _times(_inverse(arm, J), e))
 
 
 def gradient_projection(arm: ThreeLeverArm, target: ArrayLike, previous: ArrayLike) -> Floats:
-    """Like `pseudo_inverse`, plus a motion that does not move the gripper, dq = J+ e + (1 - J+ J)
-    g: the gradient g of a secondary objective, projected onto the null space of J. The objective is
-    to stay in the middle of the limits. Source: 003, I.2.1 (Fu Rong); A. Liegeois, 1977.
+    """Like `pseudo_inverse`, but with an additional joint motion that does not move the gripper: dq
+    = J+ e + (1 - J+ J) g, where g is the gradient of a secondary objective, projected onto the null
+    space of J. The secondary objective is to keep the joints near the middle of their ranges.
+    Source: 003, I.2.1 (Fu Rong); A. Liegeois, 1977.
     """
     target, previous = _asked(arm, target, previous)
     middle = arm.limits.mean(axis=-1)
@@ -147,8 +149,9 @@ def equal_angles(arm: ThreeLeverArm, target: ArrayLike, previous: ArrayLike) -> 
 
 
 def random_choice(seed: int) -> Method:
-    """Return a method that takes a random posture of the family, uniform in alpha, with this seed.
-    Source: 003, I.4 (Xi Lei-ping), where the posture is chosen among those that avoid the obstacle.
+    """Return a method that chooses a random posture of the family, with alpha uniformly
+    distributed. `seed` is for the random generator. Source: 003, I.4 (Xi Lei-ping), where the
+    posture is chosen among those that avoid the obstacle.
     """
     dice = np.random.default_rng(whole(seed, "seed", 0))
 
@@ -164,13 +167,14 @@ def distance_rule(obstacle: ArrayLike) -> Method:
     """Return a method that avoids an obstacle (2,). It works like `pseudo_inverse`, except that one
     lever stops: the nearest of those that are within half a length of the obstacle and approach it.
     Its joint does not move in that step, or turns away if the lever is nearer than L/7, and the
-    other two joints move the gripper. Source: 003, I.4 (M. Benzaoui), which describes it in words
-    and gives no length: if levers stop however far away the obstacle is, more tasks fail.
+    other two joints move the gripper. Source: 003, I.4 (M. Benzaoui), which describes the rule in
+    words and gives no length; if levers stopped at any distance from the obstacle, more tasks would
+    fail.
 
-    Two levers are equally near whenever the nearest place is the joint between them. Then the lever
-    nearer to the base stops, since its joint moves that place and the other joint does not.
-    Distances that differ by less than 1e-12 of a length count as equal, so that the result does not
-    depend on the platform's rounding.
+    Two levers are equally near whenever the nearest point is the joint between them. In that case,
+    the lever nearer to the base stops, since its joint moves that point and the other joint does
+    not. Distances that differ by less than 1e-12 of a length count as equal, so that the result
+    does not depend on the platform's rounding.
     """
     H = floats(obstacle, "obstacle", 2)
 
@@ -217,8 +221,8 @@ def _go(
     previous: Floats,
     step: Callable[[Floats, Floats, Floats], Floats],
 ) -> Floats:
-    """Go to the target step by step: `step(q, J, e)` converts a step of the gripper into a step of
-    the joints. A joint stops at its limits.
+    """Move to the target step by step: `step(q, J, e)` converts a step of the gripper into a step
+    of the joints. A joint stops at its limits.
     """
     q = previous
     for _ in range(STEPS):
@@ -250,7 +254,7 @@ def _haste(arm: ThreeLeverArm, e: Floats) -> Floats:
 
 
 def _kept(arm: ThreeLeverArm, q: Floats, target: Floats) -> Floats:
-    """The postures that are at the target and within the limits; the others become NaN."""
+    """Return the postures, but NaN where they are not at the target or not within the limits."""
     with np.errstate(invalid="ignore"):
         inside = ((q >= arm.limits[:, 0] - SLACK) & (q <= arm.limits[:, 1] + SLACK)).all(axis=-1)
         off = np.linalg.norm(arm.points(q)[..., 3, :] - target, axis=-1)

@@ -5,7 +5,7 @@ import numpy as np
 from .._arrays import ArrayLike, Floats
 from .._validate import floats, short, whole
 
-ORDERS = 10  # each order divides the rounding errors by the step again
+ORDERS = 10  # maximum order; each order divides the rounding errors by the step again
 
 
 def differentiate(values: ArrayLike, t: ArrayLike, order: int = 1) -> Floats:
@@ -14,9 +14,9 @@ def differentiate(values: ArrayLike, t: ArrayLike, order: int = 1) -> Floats:
 
     values (samples,) or (..., samples, n); t (samples,) in seconds, strictly increasing. The result
     has the shape of `values`. `order` 2 differentiates twice, and so on up to 10. Angles are not
-    unwrapped here: pass unwrapped ones (as `follow` returns them). A NaN spreads to its neighbours.
-    ValueError: fewer than three samples, shapes that do not match, times that do not increase,
-    slopes that overflow.
+    unwrapped here: pass unwrapped ones (as `follow` returns them). A NaN also makes the
+    neighbouring results NaN. Raises ValueError if there are fewer than three samples, the shapes do
+    not match, the times do not increase, or a slope overflows.
 
     >>> t = np.array([0, 0.1, 0.2, 0.3])
     >>> differentiate(5 * t**2, t).round(3), differentiate(5 * t**2, t, 2).round(3)
@@ -48,8 +48,8 @@ def differentiate(values: ArrayLike, t: ArrayLike, order: int = 1) -> Floats:
 
 
 def rising(t: ArrayLike, least: int = 3) -> Floats:
-    """Return `t` as an array of at least `least` strictly increasing times. ValueError: it is not
-    such an array.
+    """Return `t` as an array of at least `least` strictly increasing times. Raises ValueError if it
+    is not such an array.
     """
     t = floats(t, "t")
     if t.ndim != 1 or len(t) < least:

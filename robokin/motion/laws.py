@@ -17,8 +17,8 @@ class TimeLaw(Sealed):
     """s(t) over `duration` seconds: 0 before the motion, 1 after it.
 
     `progress` maps t / duration, an array of numbers in [0, 1], to s of the same shape. A law can
-    be pickled if its `progress` can (a module-level function can, a lambda cannot). TypeError:
-    `progress` is not callable.
+    be pickled if its `progress` can (a module-level function can, a lambda cannot). Raises
+    TypeError if `progress` is not callable.
     """
 
     duration: float
@@ -31,8 +31,8 @@ class TimeLaw(Sealed):
         vars(self)["duration"] = duration
 
     def __call__(self, t: ArrayLike) -> Floats:
-        """s at the times t (...) in seconds. ValueError: no times, or times that are not finite; a
-        `progress` that returns another shape, or something other than numbers.
+        """Return s at the times t (...) in seconds. Raises ValueError if there are no times, a time
+        is not finite, or `progress` returns another shape or anything other than numbers.
         """
         t = floats(t, "t")
         if not t.size:

@@ -9,8 +9,8 @@ from .._arrays import Floats
 from .._validate import floats, number, short, whole
 
 STEPS = 64  # steps into which each interval is divided
-DIGITS = 12  # greatest number of decimals; a float has only a few more
-MOST = 200  # greatest number of intervals that are sampled
+DIGITS = 12  # maximum number of decimals; a float has only a few more
+MOST = 200  # maximum number of intervals that are sampled
 
 
 class Maximum(NamedTuple):
@@ -26,16 +26,16 @@ def refined_maximum(
     """The greatest value between `low` and `high`, accurate to two more decimals than the
     `decimals` to be shown.
 
-    We sample the interval in 64 steps. A concave peak rises above its greatest sample by no more
-    than this sample rises above the lower of its neighbours. So we sample again around every peak
-    that could be the greatest, and stop when no peak can raise the maximum by half a unit of the
-    second decimal beyond those shown. A peak that is narrower than 1/64 of the interval and lies
-    between two samples is missed.
+    We sample the interval in 64 steps. A concave peak rises above its highest sample by no more
+    than this sample rises above the lower of its neighbours. We therefore sample again around every
+    peak that could be the highest, and stop when no peak can raise the maximum by half a unit of
+    the second decimal beyond those shown. A peak that is narrower than 1/64 of the interval and
+    lies between two samples is missed.
 
     `function` maps an array (k,) to an array (k,), NaN where it has no value. For a minimum, negate
-    the function. TypeError: `function` is not callable. ValueError: a range that is not finite, a
-    result of another shape, no value at all, or a maximum that does not converge, for example near
-    a pole.
+    the function. Raises TypeError if `function` is not callable. Raises ValueError if the interval
+    is not finite, a result has another shape, there is no value at all, or the maximum does not
+    converge, for example near a pole.
 
     >>> value, at = refined_maximum(lambda t: t * np.exp(-t), 0, 3, 3)
     >>> round(value, 5), round(at, 2)

@@ -28,8 +28,8 @@ P = TypeVar("P", bound=Lerps)
 def lin(start: P, goal: P, s: ArrayLike) -> P:
     """The straight motion (LIN, MoveL) from `start` to `goal`, at s (...) in [0, 1].
 
-    Source: 001, listing 7. ValueError: s outside [0, 1]. TypeError: values without `lerp`, or of
-    different types.
+    Source: 001, listing 7. Raises ValueError if s is outside [0, 1], and TypeError if a value has
+    no `lerp` or the types differ.
 
     >>> start, goal = Transform(translation=(0.4, 0, 0.5)), Transform(translation=(0.4, 0.2, 0.5))
     >>> lin(start, goal, [0, 0.25, 1]).translation
@@ -45,9 +45,9 @@ def ptp(q0: ArrayLike, q1: ArrayLike, s: ArrayLike) -> Floats:
     n), at s (...).
 
     Returns (..., n). Joint values are not wrapped: for the shorter turn, choose q1 with `nearest`.
-    Source: 001, listing 8; 000, the motion along a straight line in the space Q. It warns
-    (UserWarning) if a joint is beyond two turns: the angles are probably in degrees. ValueError: s
-    outside [0, 1], shapes that do not match.
+    Source: 001, listing 8; 000, the motion along a straight line in the space Q. Warns
+    (UserWarning) if a joint exceeds two turns, since the angles are then probably in degrees.
+    Raises ValueError if s is outside [0, 1] or the shapes do not match.
     """
     q0, q1, s = floats(q0, "q0"), floats(q1, "q1"), _share(s)
     if q0.ndim == 0 or q0.shape[-1:] != q1.shape[-1:]:
@@ -63,7 +63,7 @@ def ptp(q0: ArrayLike, q1: ArrayLike, s: ArrayLike) -> Floats:
 def lin_lin(start: P, via: P, goal: P, s: ArrayLike) -> P:
     """Two consecutive straight motions. At s = 1/2 the path is at `via`, where the velocity jumps.
 
-    Source: 001, listing 11. It raises the same errors as `lin`.
+    Source: 001, listing 11. Raises the same errors as `lin`.
     """
     return blend(start, via, goal, 0.0, s)
 
@@ -75,14 +75,14 @@ def blend(
 
     fraction  the blend (zone), in [0, 0.5], a number or an array broadcast with s; 0 is `lin_lin`
     corner    "parabola": a quadratic Bezier curve from the first line to the second with `via` as
-              its middle control pose; the velocity is continuous in s (C1). At
-              s = 1/2 the curve is half as far from `via` as the midpoint of the corner's two ends.
+              its middle control pose; the velocity is continuous in s (C1). At s = 1/2, the
+              curve is half as far from `via` as the midpoint of the corner's two ends.
               "quintic": a Bezier curve of degree 5 with control poses 0, 0.4 and 0.8 of the way to
-              `via` from both ends; the acceleration is continuous too (C2). At
-              s = 1/2 its distance from `via` is 3/8 of the midpoint's, 3/4 of the parabola's.
-    Source: 001, listing 12 (parabola), with errata S1-j: for a fraction above 0.5 the printed law
-    misses both end poses. ValueError: a fraction outside [0, 0.5], s outside [0, 1], an unknown
-    corner. TypeError: values without `lerp`, or of different types.
+              `via` from both ends; the acceleration is continuous, too (C2). At s = 1/2, its
+              distance from `via` is 3/8 of the midpoint's and 3/4 of the parabola's.
+    Source: 001, listing 12 (parabola), with errata S1-j: for a fraction above 0.5, the printed law
+    misses both end poses. Raises ValueError if the fraction is outside [0, 0.5], s is outside
+    [0, 1], or the corner is unknown, and TypeError if a value has no `lerp` or the types differ.
     """
     s, b = _share(s), floats(fraction, "fraction")
     if ((b < 0) | (b > 0.5)).any():
@@ -90,7 +90,7 @@ def blend(
         raise ValueError(f"fraction: wanted a blend in [0, 0.5], got {bad:g}")
     choice(corner, "corner", CORNERS)
     broadcast("fraction and s", b.shape, s.shape)
-    # x runs from 0 to 1 across the corner and is constant outside it. There the curve is at its
+    # x runs from 0 to 1 across the corner and is constant outside it. Outside, the curve is at its
     # first or last control pose, which moves along one of the two lines, so one formula covers the
     # whole path.
     with np.errstate(over="ignore"):  # the quotient overflows for an extremely short corner

@@ -3,8 +3,8 @@ draws or checks it.
 
 Differences across a jump say nothing about the motion: the "acceleration" at a corner is the jump
 in speed divided by the time step (errata S1-m), and the "speed" of a wrapped angle is 2 pi divided
-by it (S1-e). This module finds and reports both kinds of jump, and computes no differences across
-them.
+by the time step (S1-e). This module finds and reports both kinds of jump, and computes no
+differences across them.
 """
 
 from collections.abc import Iterator
@@ -47,13 +47,13 @@ class Jump(Sealed):
 
     @property
     def by(self) -> Floats:
-        """(n,) the size of each joint's jump; 0 for the joints that do not jump."""
+        """The size of each joint's jump, (n,); 0 for joints that do not jump."""
         return self.after - self.before
 
 
 class Extreme(NamedTuple):
     """The greatest (or lowest) value of each joint, and the time in seconds of the first sample
-    with that value: both (..., n). NaN for a joint without values.
+    with that value: both (..., n). They are NaN for a joint without values.
     """
 
     value: Floats
@@ -63,21 +63,21 @@ class Extreme(NamedTuple):
 @dataclass(frozen=True, init=False, repr=False, eq=False)
 class Recording(Sealed):
     """Motions of one arm with n joints and N samples each; the leading axes are the batch. `record`
-    makes one.
+    makes a recording.
 
     t        (N,) seconds
-    q, v, a  (..., N, n) joint values (rad; m if prismatic), speeds, accelerations. All of q is
-             NaN where one of its joints is; v and a are NaN where they cannot be computed: in
-             pieces of fewer than three samples, and a also at a jump in speed.
-    missing  (..., N) bool: whether this sample has no posture
-    gaps     (..., N - 1) bool: between this sample and the next the position jumps, or one of the
-             two is missing
+    q, v, a  (..., N, n) joint values (rad; m if prismatic), speeds, accelerations. All of q is NaN
+             where one of its joints is; v and a are NaN where they cannot be computed: in pieces of
+             fewer than three samples, and a also at a jump in speed.
+    missing  (..., N) bool: True where a sample has no posture
+    gaps     (..., N - 1) bool: True where the position jumps between a sample and the next, or one
+             of the two is missing
     leaps    a `Jump` for each jump in position
     jumps    a `Jump` for each jump in speed
 
     `recording[i]` is a part of the batch. All arrays are read-only. If you have more accurate
-    speeds or accelerations than differences give, use `dataclasses.replace(recording, v=v)`.
-    TypeError, ValueError: parts of another type or shape.
+    speeds or accelerations than finite differences, use `dataclasses.replace(recording, v=v)`.
+    Raises TypeError or ValueError if a part is of another type or shape.
     """
 
     arm: Arm
@@ -130,44 +130,45 @@ class Recording(Sealed):
 
     @property
     def shape(self) -> tuple[int, ...]:
-        """The batch shape; () is a single motion."""
+        """The batch shape; () for a single motion."""
         return self.q.shape[:-2]
 
     @cached_property
     def excess(self) -> Floats:
-        """(..., N, n) how far each joint is past its limit, rad or m; 0 inside, NaN where missing.
-        Angles are not wrapped: q + 2 pi k may be inside (see `within`).
+        """The amount by which each joint exceeds its limit, in rad or m: (..., N, n), 0 inside the
+        limits and NaN where a sample is missing. Angles are not wrapped: q + 2 pi k may be inside
+        (see `within`).
         """
         low, high = self.arm.limits.T
         return _excess(np.maximum(low - self.q, self.q - high))
 
     @cached_property
     def speed_excess(self) -> Floats:
-        """(..., N, n) by how much each joint exceeds its speed limit, rad/s or m/s; 0 where it does
-        not, or where the arm has no speed limits; NaN where there is no speed.
+        """The amount by which each joint exceeds its speed limit, in rad/s or m/s: (..., N, n), 0
+        where it does not or the arm has no speed limits, and NaN where there is no speed.
         """
         limits = self.arm.speed_limits
         return _excess(abs(self.v) - (np.inf if limits is None else limits))
 
     @cached_property
     def lowest(self) -> Extreme:
-        """The lowest value of each joint, rad or m."""
+        """The lowest value of each joint, in rad or m."""
         value, time = _extreme(-self.q, self.t)
         return Extreme(sealed(-value), time)
 
     @cached_property
     def highest(self) -> Extreme:
-        """The highest value of each joint, rad or m."""
+        """The highest value of each joint, in rad or m."""
         return _extreme(self.q, self.t)
 
     @cached_property
     def greatest_speed(self) -> Extreme:
-        """The greatest absolute speed over all samples, rad/s or m/s."""
+        """The greatest absolute speed over all samples, in rad/s or m/s."""
         return _extreme(abs(self.v), self.t)
 
     @cached_property
     def greatest_acceleration(self) -> Extreme:
-        """The greatest absolute acceleration over all samples that have one, rad/s² or m/s²."""
+        """The greatest absolute acceleration over all samples that have one, in rad/s² or m/s²."""
         return _extreme(abs(self.a), self.t)
 
     def __len__(self) -> int:
@@ -204,26 +205,26 @@ def record(arm: Arm, t: ArrayLike, q: ArrayLike) -> Recording:
     """Return the `Recording` of the motion q (..., N, n) at two or more increasing times t (N,).
 
     Pass unwrapped angles (as `follow` returns them). NaN means that there is no posture. Speeds and
-    accelerations are those of `differentiate`, for each unbroken piece separately. It warns
-    (UserWarning) if the angles are probably in degrees: a motion begins more than two turns from
-    zero and outside its limits, or goes beyond eight turns. ValueError: shapes that do not match,
-    times that do not increase, infinite numbers.
+    accelerations are those of `differentiate`, for each unbroken piece separately. Warns
+    (UserWarning) if the angles are probably in degrees, that is, if a motion begins more than two
+    turns from zero and outside its limits, or goes beyond eight turns. Raises ValueError if the
+    shapes do not match, the times do not increase, or a number is infinite.
 
     A joint's position jumps between two samples if it turns by more than pi there, or if the speed
     of this step lies outside the range of the three steps before and the three after it (at a
     corner it lies between them) by more than 8 times the width of that range. Where some of these
-    steps are jumps themselves, the similar ones among them are enough if the step is 3 times as
-    fast as those, or 10 times if only one side is known, at an end or beside a gap. A single
-    outlying sample has a jump before and a jump after it. A change below 2 mrad or 2 mm is not a
-    jump, nor is a change within the noise: 10 times the lower quartile of the motion's changes in
-    speed.
+    steps are jumps themselves, only the similar ones among them are compared, and the step must be
+    3 times as fast as those, or 10 times if only one side is known, at an end or beside a gap. A
+    single outlier has a jump before it and a jump after it. A change below 2 mrad or 2 mm is not a
+    jump, nor is a change within the noise, which is 10 times the lower quartile of the motion's
+    changes in speed.
 
-    Samples cannot distinguish a jump from a motion that takes less than two steps: depending on
-    where the samples fall, it counts as one or the other. Of the motions that we tried (point to
-    point, flips, back and forth, sines), none that takes two steps from rest to rest, or five steps
-    per period, counts as a jump. Two jumps in the same direction, or three in any direction,
-    without another step between them look like a quick motion. If every other step of a motion
-    jumps, all of them count as noise.
+    Samples cannot distinguish a jump from a motion that takes less than two steps. Depending on
+    where the samples fall, such a motion counts as a jump or not. Of the motions that we tried
+    (point to point, flips, back and forth, sines), none that takes two steps from rest to rest, or
+    five steps per period, counts as a jump. Two jumps in the same direction, or three in any
+    direction, without another step between them look like a quick motion. If every other step of a
+    motion is a jump, all of them count as noise.
 
     >>> t = np.linspace(0, 2, 201)
     >>> motion = record(SCARA, t, ptp([0, 0, 0, 0], [1, 1.5, 0, 0.1], quintic(2)(t)))
@@ -257,7 +258,7 @@ def record(arm: Arm, t: ArrayLike, q: ArrayLike) -> Recording:
 
 
 def _parts(steps: Floats, t: Floats, prismatic: Bools) -> Bools:
-    """Which steps (C, N - 1, n) are jumps in position, by the rule of `record`."""
+    """A mask of the steps (C, N - 1, n) that are jumps in position, by the rule of `record`."""
     duration = np.diff(t)[:, None]
     least = LEAP / duration
     with np.errstate(invalid="ignore", over="ignore"):
@@ -275,8 +276,8 @@ def _parts(steps: Floats, t: Floats, prismatic: Bools) -> Bools:
 
 
 def _lonely(speeds: Floats, least: Floats) -> Bools:
-    """Which speeds (C, N - 1, n) are outside the range of their neighbours by more than `least` (N
-    - 1, 1), as the speeds before and after a single outlying sample are.
+    """A mask of the speeds (C, N - 1, n) that are outside the range of their neighbours by more
+    than `least` (N - 1, 1), as the speeds before and after a single outlier are.
     """
     found: Bools = _outside(speeds, 1, 1) > least
     before = (_outside(speeds, 1, 2) > least) & (speeds * _shifted(speeds, 1) < 0)
@@ -287,8 +288,8 @@ def _lonely(speeds: Floats, least: Floats) -> Bools:
 
 
 def _outside(speeds: Floats, left: int, right: int) -> Floats:
-    """How far each speed (C, N - 1, n) is outside the range of the `left` speeds before and the
-    `right` speeds after it; 0 where it may be a quick motion.
+    """The amount by which each speed (C, N - 1, n) is outside the range of the `left` speeds before
+    it and the `right` speeds after it; 0 where this may be a quick motion.
     """
     sides = _shifted(speeds, -left), _shifted(speeds, right)
     low, high = np.fmin(*sides), np.fmax(*sides)
@@ -305,8 +306,8 @@ def _outside(speeds: Floats, left: int, right: int) -> Floats:
 
 
 def _leaps(q: Floats, t: Floats, speeds: Floats, parts: Bools) -> list[Found]:
-    """The jumps in position, half-way between two samples: both sides are extrapolated to that
-    time.
+    """The jumps in position. The time of a jump is half-way between two samples, and the values on
+    both sides are extrapolated to this time.
     """
     c, i = np.nonzero(parts.any(axis=-1))
     half, count = (t[i + 1] - t[i])[:, None] / 2, speeds.shape[1]
@@ -342,13 +343,13 @@ def _derivatives(q: Floats, t: Floats, gaps: Bools) -> tuple[Floats, Floats]:
 
 
 def _jumps(speeds: Floats, t: Floats) -> list[Found]:
-    """The jumps in the speeds between samples (C, N - 1, n): changes far greater than the changes
-    beside them.
+    """The jumps in the speeds between samples (C, N - 1, n): changes that are far greater than
+    nearby changes.
 
-    The changes of a smooth motion are all roughly the acceleration times the step. We compare with
-    those two samples away, since an adjacent change may share a corner that lies between two
-    samples. A change below a hundredth of the greatest speed is not a jump, nor is one without
-    neighbours on both sides.
+    In a smooth motion, all changes are roughly the acceleration times the step. We compare each
+    change with those two samples away, since an adjacent change may belong to the same corner,
+    which can lie between two samples. A change below a hundredth of the greatest speed is not a
+    jump, nor is a change without neighbours on both sides.
     """
     change = abs(np.diff(speeds, axis=1))
     beside = np.maximum(_shifted(change, -2), _shifted(change, 2))
@@ -359,8 +360,8 @@ def _jumps(speeds: Floats, t: Floats) -> list[Found]:
     for c in np.flatnonzero(sure.any(axis=(1, 2))):
         for run in _groups(np.flatnonzero(sure[c].any(axis=-1))):
             first, last = run[0], run[-1]
-            # A corner between two samples shows in two changes, in one of them perhaps only
-            # faintly. (There are always two more changes on each side of a jump in `sure`.)
+            # A corner between two samples appears in two changes, perhaps only faintly in one of
+            # them. (There are always two more changes on each side of a jump in `sure`.)
             first -= part[c, first - 1].any()
             last += part[c, last + 1].any()
             time = float((t[first + 1] + t[last + 1]) / 2)
@@ -420,8 +421,8 @@ def _extreme(values: Floats, t: Floats) -> Extreme:
 
 
 def _warn(limits: Floats, prismatic: Bools, q: Floats, missing: Bools) -> None:
-    """Warn if the angles are probably in degrees. A motion may keep turning beyond all limits, but
-    it begins inside or near them.
+    """Warn if the angles are probably in degrees. A motion may continue to turn beyond all limits,
+    but it begins inside or near them.
     """
     begin = np.take_along_axis(q, missing.argmin(axis=1)[:, None, None], axis=1)[:, 0]
     outside = (begin < limits[:, 0]) | (begin > limits[:, 1])

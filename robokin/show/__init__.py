@@ -2,16 +2,21 @@
 
 try:
     from .charts import bars, curves
+    from .conveyor import conveyor_player
+    from .elbow_explorer import elbow_explorer
     from .ellipsoid import plot_velocity_ellipsoid
     from .explorer import Explorer
     from .explorers import joint_explorer, target_explorer
     from .joint_plot import plot_joints
+    from .levers_explorer import movement_explorer
     from .motion_explorer import motion_explorer
     from .motors import motor_explorer
     from .palette import JOINT_STYLES
     from .plan_explorer import plan_explorer
     from .player import Player, animate
     from .plots import figure, plot_frames, plot_postures
+    from .rotation_explorer import rotation_explorer
+    from .singularity_explorer import singularity_explorer
     from .sketch import Sketch
     from .tour_explorer import tour_explorer
 except ModuleNotFoundError as error:
@@ -25,16 +30,21 @@ __all__ = [
     "Sketch",
     "animate",
     "bars",
+    "conveyor_player",
     "curves",
+    "elbow_explorer",
     "figure",
     "joint_explorer",
     "motion_explorer",
     "motor_explorer",
+    "movement_explorer",
     "plan_explorer",
     "plot_frames",
     "plot_joints",
     "plot_postures",
     "plot_velocity_ellipsoid",
+    "rotation_explorer",
+    "singularity_explorer",
     "target_explorer",
     "tour_explorer",
 ]

@@ -1,4 +1,4 @@
-"""Checks of the arguments of figures and players, before anything is drawn."""
+"""Check the arguments of figures and players before anything is drawn."""
 
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import replace
@@ -22,9 +22,10 @@ Targets: TypeAlias = Transform | Iterable[Transform] | Mapping[Any, Transform]
 
 
 def named_targets(targets: Targets) -> dict[str, Transform]:
-    """Return `targets` as a dict of name -> Transform. In a list, a single pose is named target,
-    two are named start and goal, three start, via and goal, and more P1, P2, ... TypeError: an item
-    that is not a pose. ValueError: a batch of poses under one name.
+    """Return `targets` as a dict that maps each name to a Transform. In a list, a single pose is
+    named target, two poses are named start and goal, three are named start, via and goal, and more
+    are named P1, P2, ... Raises TypeError if an item is not a pose, and ValueError if it is a batch
+    of poses.
     """
     named = posed(targets)
     for name, pose in named.items():
@@ -36,7 +37,7 @@ def named_targets(targets: Targets) -> dict[str, Transform]:
 
 
 def posed(targets: Targets) -> dict[str, Transform]:
-    """Like `named_targets`, but batches of poses are accepted."""
+    """Do the same as `named_targets`, but accept batches of poses."""
     if isinstance(targets, Transform):
         targets = list(targets) if targets.shape else [targets]
     if isinstance(targets, Mapping):
@@ -59,17 +60,17 @@ def posed(targets: Targets) -> dict[str, Transform]:
 def tracks(
     arm: Any, t: Any, q: Any, lead: tuple[int, ...], names: Any
 ) -> tuple[list[Recording], list[str]]:
-    """Return a recording for each arm, with its motions along one axis (C, N, n), and the names of
-    the arms. The caller may pass one arm, several arms, or recordings.
+    """Return a recording for each arm, with its motions along one axis (motions, samples, n), and
+    the names of the arms. The caller may pass one arm, several arms, or recordings.
     """
     several = isinstance(arm, (list, tuple))
     given = list(arm) if several else [arm]
     recorded = bool(given) and all(isinstance(one, Recording) for one in given)
     arms = [one.arm if recorded else instance(one, Arm, "arm") for one in given]
     if names is not None and not several:
-        raise ValueError("names: wanted only with a list of arms; a single arm has its own name")
+        raise ValueError("names: allowed only with a list of arms; a single arm has its own name")
     if recorded and (t is not None or q is not None):
-        raise ValueError("t and q: not wanted with recordings, which have their own")
+        raise ValueError("t and q: not allowed with recordings, which have their own")
     motions = [q] if not several else q if not recorded else [None] * len(arms)
     if not (arms and isinstance(motions, (list, tuple)) and len(motions) == len(arms)):
         wanted = f"a list with one array for each of {len(arms)} arms"
@@ -106,7 +107,7 @@ def _shaped(q: Floats, lead: tuple[int, ...], count: int, arm: Arm, name: str) -
 
 
 def in_a_row(recording: Recording) -> Recording:
-    """The same recording with its motions along one axis: (C, N, n)."""
+    """Return the recording with its motions along one axis: (motions, samples, n)."""
     lead = recording.shape
 
     def placed(jumps: Iterable[Jump]) -> tuple[Jump, ...]:
@@ -156,8 +157,8 @@ def switch(value: Any) -> Switch | None:
 def things(
     targets: Targets, points: Any, circles: Any, faces: Any, readings: Any, more: Any
 ) -> list[Thing]:
-    """The things that the arguments of `animate` describe, and `more` things of any kind.
-    TypeError: one of `more` is not a `Thing`.
+    """Return the things that the arguments of `animate` describe, and after them the things in
+    `more`, which may be of any kind. Raises TypeError if an item of `more` is not a `Thing`.
     """
     polygons = Faces(faces)
     found: list[Thing] = [Target(pose, name) for name, pose in posed(targets).items()]
@@ -168,11 +169,13 @@ def things(
 
 
 def quantities(given: Any, arms: int, lead: tuple[int, ...], samples: int) -> dict[str, Floats]:
-    """Return the quantities as a dict of name -> values (arms, motions, samples)."""
+    """Return the quantities as a dict that maps each name to values (arms, motions, samples)."""
     if not isinstance(given, Mapping):
-        raise ValueError(f"quantities: wanted a dict name -> numbers, got {short(given)}")
+        raise ValueError(
+            f"quantities: wanted a dict that maps names to numbers, got {short(given)}"
+        )
     found = {}
-    for name, value in several(given.items(), "quantities", "a dict name -> numbers"):
+    for name, value in several(given.items(), "quantities", "a dict that maps names to numbers"):
         name = plain(name, "quantities")
         each = [value] if arms == 1 else value
         if not isinstance(each, (list, tuple)) or len(each) != arms:
@@ -212,11 +215,13 @@ def bases(value: Any, count: int) -> Floats | None:
 
 
 def _marks(points: Any, circles: Any, readings: Any) -> list[Mark]:
-    """Return points and circles as marks; points are circles without a radius."""
+    """Return points and circles as marks. A point is a circle without a radius."""
     if not isinstance(readings, Mapping):
-        raise ValueError(f"readings: wanted a dict name -> numbers, got {short(readings)}")
+        raise ValueError(
+            f"readings: wanted a dict that maps names to numbers, got {short(readings)}"
+        )
     read = {}
-    for name, given in several(readings.items(), "readings", "a dict name -> numbers"):
+    for name, given in several(readings.items(), "readings", "a dict that maps names to numbers"):
         read[name] = as_reading(given, f"reading {name}")
     found = [
         Mark(as_place(at, "points"), name, reading=read.get(name))

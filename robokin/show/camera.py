@@ -1,8 +1,7 @@
-"""The camera of figures and pages: its position, and the points of arms and things that it must
-see.
+"""The camera of figures and pages: its position, and the points that must be visible.
 
-`project` returns picture coordinates in metres. `scene.Scene._fit` and matplotlib convert them to
-pixels; on a page, `js/camera.js` does.
+`project` returns picture coordinates in metres. `scene.Scene._fit` and Matplotlib convert them to
+pixels; on a page, `js/camera.js` does so.
 """
 
 from collections.abc import Iterable, Sequence
@@ -32,9 +31,9 @@ STRAIGHT: tuple[View, ...] = (0, 0), (-90 * deg, 0), (-90 * deg, 90 * deg)
 
 
 def project(points: ArrayLike, view: View = VIEW) -> Floats:
-    """The parallel projection of points (..., 3) onto the picture: (..., 2) in metres, to the right
-    and up. `view` is the azimuth about the base's z axis, measured from its x axis, and the
-    elevation, in radians.
+    """Return the parallel projection of points (..., 3) as picture coordinates (..., 2) in metres,
+    to the right and upwards. `view` contains the azimuth about the base's z axis, measured from its
+    x axis, and the elevation, both in radians.
     """
     (ca, ce), (sa, se) = np.cos(view), np.sin(view)
     across: Floats = np.asarray(points) @ np.array([[-sa, -se * ca], [ca, -se * sa], [0, ce]])
@@ -42,16 +41,16 @@ def project(points: ArrayLike, view: View = VIEW) -> Floats:
 
 
 def posture(arm: Arm, q: Floats) -> Floats:
-    """The postures q (..., n) with angles beyond two turns wrapped. A motion that keeps turning (as
-    `follow` may return) is not a mistake, so it must not cause the warning about degrees.
+    """Return the postures q (..., n) with angles beyond two turns wrapped. A motion that keeps
+    turning (as `follow` may return) is valid, so it must not cause the warning about degrees.
     """
     far = (abs(q) > TWO_TURNS) & ~arm.prismatic
     return np.where(far, wrapped(q), q) if far.any() else q
 
 
 def arm_points(arm: Arm, q: Floats) -> Floats:
-    """The polyline of the links: base, joint 1, end of link 1, joint 2, ..., flange. q (..., n) ->
-    (..., 2n + 1, 3).
+    """Return the polyline of the links for postures q (..., n) as points (..., 2n + 1, 3): base,
+    joint 1, end of link 1, joint 2, ..., flange.
 
     Joint i is at index 2i + 1 (i from 0); the ends of the links are the origins of `arm.frames`.
     """
@@ -63,13 +62,13 @@ def arm_points(arm: Arm, q: Floats) -> Floats:
 
 
 def flange(arm: Arm, q: Floats) -> Transform:
-    """The pose of the flange at q (..., n), for angles of any size."""
+    """Return the pose of the flange at q (..., n), for angles of any size."""
     return arm.fk(posture(arm, q))
 
 
 def extent(arm: Arm) -> float:
-    """The length of the stretched arm in metres: the scale of its pictures. ValueError: it is too
-    large or too small to draw.
+    """Return the length of the fully extended arm in metres, which determines the scale of its
+    pictures. Raises ValueError if the arm is too large or too small to draw.
     """
     with np.errstate(over="ignore"):
         size = total_length(arm)
@@ -79,7 +78,9 @@ def extent(arm: Arm) -> float:
 
 
 def is_flat(arm: Arm, q: Floats) -> bool:
-    """Whether these postures lie in the plane z = 0, so that a view from above is the clearest."""
+    """Return whether these postures lie in the plane z = 0, so that a view from above is the
+    clearest.
+    """
     return bool(np.nanmax(abs(arm_points(arm, q)[..., 2]), initial=0) < 1e-6 * extent(arm))
 
 
@@ -97,8 +98,9 @@ def scene_data(
     grows: bool = False,
     bases: Floats | None = None,
 ) -> PageScene:
-    """The page data of a scene: the camera, the points that it must see, the floor and the things.
-    `kept` are the samples of moving things that the page contains. A `solid` floor is at height 0.
+    """Return the page data of a scene: the camera, the points that must be visible, the floor and
+    the things. `kept` contains the indices of the samples that the page stores. A `solid` floor is
+    at height 0.
     """
     flat, foot = common_plane(arms), 0.08 * size * np.array([[-1], [1]])
     feet = standing(bases, len(arms))
@@ -113,7 +115,7 @@ def scene_data(
     axis = 0.13 * size
     tips = [(pose[..., None] @ (axis * np.eye(3))).reshape(-1, 3) for pose in tools]
     tips += [thing.seen(axis) for thing in things]
-    parts += [thing.seen(0.0) for thing in things]  # the axes of frames do not widen the floor
+    parts += [thing.seen(0.0) for thing in things]  # the axes of frames do not enlarge the floor
     across = [k for k in range(3) if k != (2 if flat is None else flat)]
     rings = [foot * np.eye(3)[k] + base for base in feet for k in across]
     seen = np.concatenate([*rings, *parts])
@@ -139,17 +141,17 @@ def scene_data(
 
 
 def standing(bases: Floats | None, count: int) -> Floats:
-    """The positions of `count` arms: (count, 3). Without `bases` each is at the origin."""
+    """Return the positions (count, 3) of `count` arms. Without `bases`, all are at the origin."""
     flat = np.zeros((count, 2)) if bases is None else bases
     return np.column_stack([flat, np.zeros(count)])
 
 
 def outermost(points: Floats) -> list[list[float]]:
-    """About fifty points (k, 3) that a camera must see: those farthest out in evenly spread
+    """Return about fifty points (k, 3) that must be visible: those farthest out in evenly spread
     directions.
 
-    They are rounded first, so that the choice between two equal ones does not depend on rounding
-    errors.
+    The points are rounded first, so that rounding errors do not decide which of two equally distant
+    points is chosen.
     """
     points = np.floor(points[np.isfinite(points).all(axis=-1)] * 200 + 0.5 + TIE).astype(np.int64)
     x, y, z = (points - points.min(axis=0)).T
@@ -165,8 +167,9 @@ def outermost(points: Floats) -> list[list[float]]:
 
 
 def best_view(tools: Floats, flat: int | None) -> View:
-    """Azimuth and elevation of the camera: perpendicular to the plane of a flat scene, otherwise
-    from where the tool's path looks widest, on the tool's side of the base.
+    """Return the azimuth and elevation of the camera. It looks perpendicularly at the plane of a
+    flat scene. Otherwise, it looks from the direction in which the tool's path appears largest, on
+    the tool's side of the base.
     """
     if flat is not None:
         return STRAIGHT[flat]
@@ -183,13 +186,13 @@ def best_view(tools: Floats, flat: int | None) -> View:
         )
         toward = centre @ [np.cos(azimuth), np.sin(azimuth), 0]
         area *= 1 + 0.3 * np.tanh(5 * toward / (np.linalg.norm(centre) + 1e-9))
-        if area > 1.05 * most:  # this margin keeps noise from deciding between two equal views
+        if area > 1.05 * most:  # so that rounding errors do not decide between equal views
             best, most = (azimuth, VIEW[1]), area
     return best
 
 
 def common_plane(arms: Sequence[Arm]) -> int | None:
-    """The coordinate (0, 1, 2) that is zero in every posture of every arm, or None."""
+    """Return the coordinate (0, 1, 2) that is zero in every posture of every arm, or None."""
     for axis in (2, 1, 0):
         if all(
             abs(
@@ -203,7 +206,7 @@ def common_plane(arms: Sequence[Arm]) -> int | None:
 
 
 def chain(links: Iterable[Link]) -> list[PageLink]:
-    """The page data of an arm's links."""
+    """Return the page data of an arm's links."""
     return [
         {
             "before": matrix(link.before),
@@ -216,5 +219,5 @@ def chain(links: Iterable[Link]) -> list[PageLink]:
 
 
 def matrix(pose: Transform) -> list[float]:
-    """The upper three rows of the homogeneous matrix, one after the other in one list."""
+    """Return the upper three rows of the homogeneous matrix as one list, row by row."""
     return rounded(pose.as_matrix()[:3])

@@ -15,7 +15,7 @@ from .._validate import floats, instance, number, short, whole
 from .checks import plain, several
 from .palette import COMPARED, FIRST, JOINT_STYLES
 
-LOOKS = [(style["color"], (0, style["dash"])) for style in JOINT_STYLES]  # of joints 1 to 6
+LOOKS = [(style["color"], (0, style["dash"])) for style in JOINT_STYLES]  # joints 1 to 6
 
 
 def curves(
@@ -28,12 +28,13 @@ def curves(
     ylabel: str = "",
     title: str = "",
 ) -> None:
-    """Draw named curves, at most four, each in a colour and dash of its own, and a legend if there
-    are several.
+    """Draw up to four named curves, each with its own colour and dash pattern, and a legend if
+    there are several curves.
 
     x       (samples,)
-    values  name -> (samples,), drawn as they are: NaN is a gap
-    joints  the joint of each curve, from 0 to 5, whose colour and dash it gets; then up to six
+    values  a dict that maps each name to values (samples,); NaN leaves a gap
+    joints  the joint of each curve, from 0 to 5, which determines its colour and dash pattern; with
+            `joints`, there may be up to six curves
     xlabel, ylabel  quantity and unit, as in "t, s"
     """
     named = _named(values)
@@ -48,7 +49,8 @@ def curves(
         y = floats(value, f"values: {name}", finite=False)
         if at.ndim != 1 or y.shape != at.shape:
             raise ValueError(
-                f"values: wanted {name} and x of one shape (samples,), got {y.shape} and {at.shape}"
+                f"values: wanted {name} and x of the same shape (samples,), "
+                f"got {y.shape} and {at.shape}"
             )
         ax.plot(at, y, color=color, ls=dash, lw=2.2, label=name)
     if len(named) > 1:
@@ -63,17 +65,19 @@ def bars(
     xlabel: str = "",
     title: str = "",
 ) -> None:
-    """Draw a bar to the right for each name, from the top down, with its value at its end.
+    """Draw a horizontal bar for each name, from top to bottom, with its value at the end.
 
-    values  name -> number
-    form    how a value is written, as in "{:.1f} ms"
+    values  a dict that maps each name to a number
+    form    the format of a value, as in "{:.1f} ms"
     xlabel  quantity and unit
     """
     lengths = {name: number(value, f"values: {name}") for name, value in _named(values).items()}
     try:
         written = [plain(form, "form").format(value) for value in lengths.values()]
     except (ValueError, LookupError, AttributeError, TypeError):
-        raise ValueError(f'form: wanted a form as "{{:.1f}} ms", got {short(form)}') from None
+        raise ValueError(
+            f'form: wanted a format such as "{{:.1f}} ms", got {short(form)}'
+        ) from None
     _labels(instance(ax, Axes, "ax"), xlabel, "", title)
     ax.bar_label(ax.barh(list(lengths), list(lengths.values()), color=FIRST), written, padding=4)
     ax.invert_yaxis()
@@ -82,7 +86,7 @@ def bars(
 
 def _named(values: Any) -> dict[str, Any]:
     if not isinstance(values, Mapping) or not values:
-        raise ValueError(f"values: wanted a dict of name -> values, got {short(values)}")
+        raise ValueError(f"values: wanted a dict that maps names to values, got {short(values)}")
     return {plain(key, "values"): value for key, value in values.items()}
 
 

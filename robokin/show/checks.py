@@ -1,4 +1,4 @@
-"""Checks of the arguments of figures, players and things in a scene."""
+"""Check the arguments of figures, players and things in a scene."""
 
 import itertools
 from collections.abc import Iterable
@@ -15,8 +15,8 @@ LONGEST = 2000  # maximum number of characters in a title or a name
 
 
 def in_sight(lengths: Floats, name: str) -> Floats:
-    """Return lengths (...) in metres if a figure can show them; NaN is accepted. ValueError: it
-    cannot.
+    """Return lengths (...) in metres; NaN is accepted. Raises ValueError if a length is too large
+    to be drawn.
     """
     if (abs(lengths) > HORIZON).any():
         raise ValueError(f"{name}: wanted at most {HORIZON:g} m, got {np.nanmax(abs(lengths)):g} m")
@@ -26,8 +26,8 @@ def in_sight(lengths: Floats, name: str) -> Floats:
 def several(
     value: Any, name: str, what: str, most: int = 100, error: type[Exception] = ValueError
 ) -> list[Any]:
-    """Return the items of `value` if it is a list or another iterable; otherwise raise `error`,
-    which says that `what` was wanted. ValueError: there are more than `most` items.
+    """Return the items of `value` if it is a list or another iterable; otherwise raises `error`
+    with a message that `what` was wanted. Raises ValueError if there are more than `most` items.
     """
     alone = isinstance(value, (str, bytes)) or (isinstance(value, np.ndarray) and not value.ndim)
     if alone or not isinstance(value, Iterable):
@@ -39,15 +39,15 @@ def several(
 
 
 def yes(value: Any, name: str) -> bool:
-    """Return `value`. ValueError: it is neither True nor False."""
+    """Return `value` as a bool. Raises ValueError if it is neither True nor False."""
     if not isinstance(value, (bool, np.bool_)):
         raise ValueError(f"{name}: wanted True or False, got {short(value)}")
     return bool(value)
 
 
 def plain(value: Any, name: str) -> str:
-    """Return `value`. ValueError: it is not text for a figure or a page. Lone surrogates, which
-    cannot be saved in a file, are replaced by U+FFFD.
+    """Return `value` as text for a figure or a page. Lone surrogates, which cannot be saved in a
+    file, are replaced by U+FFFD. Raises ValueError if `value` is not a string or is too long.
     """
     if len(text(value, name)) > LONGEST:
         raise ValueError(f"{name}: wanted at most {LONGEST} characters, got {len(value)}")
@@ -55,19 +55,21 @@ def plain(value: Any, name: str) -> str:
 
 
 def if_given(value: str | None, name: str) -> str | None:
-    """A title or an alternative text, or None."""
+    """Return a title or an alternative text as `plain` does, or None if there is none."""
     return None if value is None else plain(value, name)
 
 
 def sentence(title: str | None) -> list[str]:
-    """A title as the first sentence of an alternative text."""
+    """Return a title as the first sentence of an alternative text, in a list."""
     return [title.rstrip(".") + "."] if title else []
 
 
 def samples(
     arm: Arm, values: ArrayLike | None, name: str = "q", count: int | None = None
 ) -> Floats:
-    """Values (samples, n) for an arm of n joints. ValueError: wrong shape or number of samples."""
+    """Return values (samples, n) for an arm of n joints. Raises ValueError if the shape or the
+    number of samples is wrong.
+    """
     found = floats(values, name, len(instance(arm, Arm, "arm").links), finite=False)
     if found.ndim == 1:
         found = found[None]

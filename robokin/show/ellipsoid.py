@@ -18,23 +18,23 @@ from .plots import Figure
 from .scene import Scene, number
 
 MOST = 3  # maximum number of postures side by side
-MARK = 0.16  # half the length of the line along a nearly lost direction, in arm lengths
+MARK = 0.16  # half the length of the red line for a short semi-axis, in arm lengths
 ROUND = np.linspace(0, 2 * np.pi, 73)
 
 
 def plot_velocity_ellipsoid(
     arm: Arm, q: ArrayLike, *, title: str | None = None, alt: str | None = None
 ) -> Figure:
-    """Plot an arm in one posture q (n,), or in up to three (k, n) side by side, each with the
-    ellipsoid of tool-point velocities for joint speeds of norm 1 rad/s that do not rotate the tool.
-    (The tool of an arm with up to three joints may rotate.)
+    """Plot an arm in one posture q (n,), or in up to three postures (k, n) side by side. Each arm
+    is drawn with the ellipsoid of the tool-point velocities that result from joint speeds of norm 1
+    rad/s that do not rotate the tool. (The tool of an arm with up to three joints may rotate.)
 
     All panels have the same scales for lengths and velocities. The semi-axes are labelled with
-    their speeds. A semi-axis shorter than a twentieth of the longest is marked by a dashed red
-    line: the tool hardly moves in that direction. `robokin.arms.dexterity.velocity_ellipsoid`
+    their speeds. A semi-axis shorter than a twentieth of the longest one is marked by a dashed red
+    line: the tool can hardly move in that direction. `robokin.arms.dexterity.velocity_ellipsoid`
     returns the numbers.
 
-    ValueError: more than three postures, or a posture with NaN.
+    Raises ValueError if there are more than three postures, or if a posture contains NaN.
     """
     q = samples(arm, q)
     if len(q) > MOST or not np.isfinite(q).all():
@@ -45,7 +45,7 @@ def plot_velocity_ellipsoid(
     lengths = np.linalg.norm(axes, axis=-2)
     size, flat = extent(arm), is_flat(arm, q)
     longest = float(lengths.max())
-    drawn = _round(0.35 * size / longest)  # metres in the figure for 1 m/s
+    drawn = _round(0.35 * size / longest)  # the length in metres that represents 1 m/s
     name, unit = length_unit(longest)
     words = [[f"{number(np.round(x / unit, 6), 2)} {name}/s" for x in each] for each in lengths]
     fig = Figure(alt or _alt(arm, title, words), figsize=(9, 4.6 if len(q) > 1 else 5.2))
@@ -89,8 +89,8 @@ def plot_velocity_ellipsoid(
 
 
 def _ways(axes: Floats) -> Floats:
-    """The directions of the semi-axes (3, k), including that of a zero semi-axis if the other two
-    are not zero; NaN where the direction is undefined.
+    """Return the directions of the semi-axes (3, k). A zero semi-axis has a direction, too, if the
+    other two are not zero. An undefined direction is NaN.
     """
     lengths = np.linalg.norm(axes, axis=0)
     there = lengths > 1e-9 * lengths.max()
@@ -141,6 +141,6 @@ def _alt(arm: Arm, title: str | None, words: list[list[str]]) -> str:
 
 
 def _round(x: float) -> float:
-    """The greatest of 1, 2, 5, 10, 20, ... that does not exceed x."""
+    """Return the greatest number of the series 1, 2, 5, 10, 20, ... that does not exceed x."""
     power = 10.0 ** np.floor(np.log10(x))
     return float(power * max(step for step in (1, 2, 5) if step * power <= x * 1.0001))

@@ -19,13 +19,13 @@ from .numbers import tidy
 from .output import Output
 from .page import ArmPage, Control, PagePose, PageScene, PageUnit
 from .scene import Scene
-from .things import Target
+from .things import Target, Thing, Zone
 from .twin import KINDS, arm_data
 
 Pose: TypeAlias = Transform | ScaraPose
 
 NEAREST = "nearest"
-TURNS = "Roll, pitch and yaw turn about the base's x, then y, then z axis."
+TURNS = "Roll, pitch and yaw rotate about the base's x, then y, then z axis."
 TAKE = "Take hold of a ring and drag it, or move the sliders. "
 WORDS: Mapping[str, str] = {
     "target": "target",
@@ -45,9 +45,10 @@ WORDS: Mapping[str, str] = {
     "oneUsable": "1 of {all} branches is usable. {why}",
     "someUsable": "{count} of {all} branches are usable. {why}",
     "noneUsable": "No branch is usable. {why}",
+    "room": "Joint {joint} is {room}° from its limit of {limit}.",
     "ellipsoid": "ellipsoid",
     "off": "off",
-    "free": "tool velocities, free to turn",
+    "free": "tool velocities, tool free to turn",
     "held": "tool velocities, orientation held",
     "speeds": "Semi-axes: {values} {unit}/s.",
     "axes": "joint axes",
@@ -60,58 +61,56 @@ WORDS: Mapping[str, str] = {
     "takeTurn": "target about its {axis} axis",
     "takeAngle": "angle of the tool",
     "takeStation": "{name}, in the plane of the screen",
-    "takeVia": "via along the base's {axis} axis",
+    "takeVia": "via point along the base's {axis} axis",
+    "takeBlend": "blend",
+    "blendIs": "{blend}, {distance} from via",
     "rings": "rings {first} to {last}",
     "ringsMove": "rings to move",
     "ringsTurn": "rings to turn",
     "ringsFree": "start, via, goal",
-    "ringsVia": "via along x, y, z",
+    "ringsVia": "via point along x, y, z",
     "law": "time law",
     "corner": "corner",
-    "costs": "The sum S of the angle changes, against the free angle alpha.",
-    "costTitle": "S, the sum of the angle changes",
-    "costAxis": "free angle alpha",
-    "costSays": "gamma {gamma}°, beta {beta}°, alpha {alpha}°: S = {S}°. The least S is "
-    "{least}°, at alpha = {best}°.",
-    "outside": "No posture reaches this point.",
-    "least": "Least S",
-    "begin": "Begin here",
     "curves": "Curves over time: joint values, speeds, accelerations. The greatest values are in "
     "the table.",
     "speed": "greatest speed, per s",
     "acceleration": "greatest acceleration, per s²",
     "sampled": "{what}, of {samples} samples",
-    "near": "The path passes via at {distance}.",
+    "near": "The path passes {distance} from via.",
+    "hardest": "Joint {joint} works hardest: {value}.",
+    "closeUp": "The corner, close up. ",
+    "fromStart": "from start",
+    "toGoal": "to goal",
     "missingSamples": "No solution in {none} of {all} samples.",
     "pastSamples": "q{joint} is past its limit in {past} of {all} samples.",
-    "fastSamples": "q{joint} is past its speed limit in {past} of {all} samples.",
+    "fastSamples": "q{joint} exceeds its speed limit in {past} of {all} samples.",
     "jump": "The speed jumps at {time} s: there is no acceleration there.",
 }
 
 
 class Explorer(Output):
-    """An arm on a page, which the reader can move. It displays itself in a notebook; `save` writes
+    """A view in which the reader can move an arm. It displays itself in a notebook; `save` writes
     it as a page.
 
-    data    the data of the page, ready for JSON: a `page.PageExplorer`
+    data    the data of the page, which JSON can represent: a `page.PageExplorer`
     still   the figure that is shown until the script runs, in print, and in an untrusted
             notebook
     """
 
     @property
     def call(self) -> str:  # type: ignore[override]
-        """The module and the function that show the explorer."""
+        """The module, and the function in it, that shows the explorer."""
         return f"{self.data['kind']}_explorer.explore"
 
 
 def inverted(arm: ClosedFormArm) -> None:
-    """Check that the scripts implement the inverse of an arm. TypeError: it has none, or one that
-    they do not implement.
+    """Check that the scripts implement the inverse of an arm. Raises TypeError if the arm has no
+    inverse, or if the scripts do not implement it.
     """
     kind = type(instance(arm, ClosedFormArm, "arm").geometry)
     if kind not in KINDS:
         raise TypeError(
-            f"arm: {kind.__name__} has no inverse for pages; see KINDS in robokin/show/twin.py"
+            f"arm: {kind.__name__} has no inverse for pages: see KINDS in robokin/show/twin.py"
         )
 
 
@@ -119,7 +118,7 @@ def inverted(arm: ClosedFormArm) -> None:
 
 
 def as_transform(pose: Pose) -> Transform:
-    """The flange pose of a target."""
+    """Return the flange pose of a target."""
     return pose.as_transform() if isinstance(pose, ScaraPose) else pose
 
 
@@ -142,12 +141,14 @@ def arm_page(
     posed: Mapping[str, Transform] | None = None,
     *,
     near: Floats | None = None,
+    things: Sequence[Thing] = (),
     meant: str,
     code: str,
 ) -> ArmPage:
-    """The page data that all explorers of an arm share, made from the postures (k, n) with which
-    the page opens and the targets in its scene. The postures `near` (k, n) have room in the picture
-    as well; by default those in which one joint has moved a little.
+    """Return the page data that all explorers of an arm share. The page opens with the postures
+    `opening` (k, n), and its scene shows the targets `posed` and the given things. The picture also
+    has room for the postures `near` (k, n); by default, these are postures in which one joint has
+    moved a little.
     """
     name, size = length_unit(extent(arm))
     return {
@@ -157,7 +158,7 @@ def arm_page(
         "arm": arm_data(arm),
         "unit": {"name": name, "size": size, "code": name},
         "units": units(arm),
-        "scene": _scene(arm, posed or {}, opening, near),
+        "scene": _scene(arm, posed or {}, opening, near, things),
         "controls": controls,
         "words": dict(WORDS),
         "meant": meant,
@@ -166,10 +167,14 @@ def arm_page(
 
 
 def _scene(
-    arm: Arm, posed: Mapping[str, Transform], opening: Floats, near: Floats | None
+    arm: Arm,
+    posed: Mapping[str, Transform],
+    opening: Floats,
+    near: Floats | None,
+    more: Sequence[Thing],
 ) -> PageScene:
-    """A scene that shows the opening postures (k, n) and those near them, above the floor. The page
-    zooms out when anything leaves the picture.
+    """Return a scene that shows the opening postures (k, n) and the postures near them, above the
+    floor. The page zooms out when anything leaves the picture.
     """
     flat = common_plane([arm]) is not None
     turn = np.where(arm.prismatic, 0.03 * extent(arm), (40 if flat else 20) * deg)
@@ -178,7 +183,7 @@ def _scene(
         near = (opening[:, None] + step).reshape(-1, len(turn))
     postures = np.concatenate([opening, near])
     above = arm_points(arm, postures)[..., 2].min(axis=-1) > -0.01 * extent(arm)
-    things = [Target(pose, name) for name, pose in posed.items()]
+    things = [*(Target(pose, name) for name, pose in posed.items()), *more]
     scene = scene_data([arm], [postures[above][None]], things, extent(arm), grows=True)
     if not flat:
         scene["view"] = list(VIEW)
@@ -188,7 +193,9 @@ def _scene(
 def control(
     name: str, unit: str, low: float, high: float, step: float, decimals: int | None = None
 ) -> Control:
-    """The page data of a slider. By default its values have one decimal, or three in metres."""
+    """Return the page data of a slider. By default, its values have one decimal, or three in
+    metres.
+    """
     default = 3 if unit == "m" else 1
     ends = [float(np.round(x, 9)) for x in (low, high)]
     return {
@@ -202,7 +209,7 @@ def control(
 
 
 def units(arm: Arm) -> list[PageUnit]:
-    """The name, size and code of each joint's unit."""
+    """Return the name, size and code of each joint's unit."""
     name, size = length_unit(extent(arm))
     shift: PageUnit = {"name": name, "size": size, "code": "mm" if size == mm else "1"}
     turn: PageUnit = {"name": "°", "size": deg, "code": "deg"}
@@ -210,7 +217,7 @@ def units(arm: Arm) -> list[PageUnit]:
 
 
 def sizes(arm: Arm) -> Floats:
-    """The sizes (n,) of the joints' units."""
+    """Return the sizes (n,) of the joints' units."""
     return np.array([unit["size"] for unit in units(arm)])
 
 
@@ -223,12 +230,12 @@ def number(value: float, decimals: int) -> str:
 
 
 def code_name(arm: Arm) -> str:
-    """The name of this arm in the package, or `arm` if it has none."""
+    """Return the name of this arm in the package, or `arm` if it has none."""
     return next((name for name in robokin.__all__ if getattr(robokin, name) is arm), "arm")
 
 
 def imports(arm: Arm, *more: str) -> str:
-    """The Python lines that import an arm and `more` names."""
+    """Return the Python lines that import an arm and the names in `more`."""
     names = {"deg", "mm", *more, *({code_name(arm)} - {"arm"})}
     own = "" if code_name(arm) != "arm" else f"# arm: {' '.join(arm.name.split())}\n"
     return (
@@ -247,10 +254,13 @@ def picture(
     targets: Mapping[str, Transform] | None = None,
     frames: Sequence[Transform] = (),
     points: Mapping[str, Floats] | None = None,
+    zone: Zone | None = None,
 ) -> plots.Figure:
-    """Draw one posture boldly and the others faintly."""
+    """Draw one posture boldly and the others faintly; with a zone, from above."""
     fig = plots.figure(alt, width=6.4, height=4.5)
-    scene = Scene(fig.add_axes((0, 0, 1, 1)), size=extent(arm))
+    scene = Scene(fig.add_axes((0, 0, 1, 1)), size=extent(arm), flat=zone is not None)
+    if zone:
+        zone.draw(scene, None)
     scene.base()
     for other in others:
         scene.arm(arm, other, "between")

@@ -1,9 +1,9 @@
-"""Explorers: an arm on a page, which the reader can move without a kernel.
+"""Explorers: views in which the reader can move an arm without a kernel.
 
-In `joint_explorer` the reader turns joints; in `target_explorer` the reader moves a target and sees
-every branch of `ik` and which of them are usable. The page computes with the scripts in `js/`;
-`twin.py` prepares the data of the arm. The reasons why a row of `ik` cannot be used are in
-`arms/explanations.py`, all other text is in `explorer.WORDS`.
+In `joint_explorer`, the reader turns joints. In `target_explorer`, the reader moves a target and
+sees every branch of `ik`, and which branches are usable. The page computes with the scripts in
+`js/`; `twin.py` prepares the data of the arm. The reasons why a row of `ik` is not usable are in
+`arms/explanations.py`; all other text is in `explorer.WORDS`.
 """
 
 import numpy as np
@@ -18,7 +18,7 @@ from ..arms.scara import ScaraPose
 from ..quaternion import Quaternion
 from ..transform import Transform
 from ..units import deg, length_unit, mm
-from .camera import common_plane, extent
+from .camera import STRAIGHT, common_plane, extent
 from .checks import yes
 from .explorer import (
     TAKE,
@@ -42,30 +42,40 @@ from .findings import flags
 from .levers_explorer import levers_explorer
 from .numbers import rounded
 from .page import FactRow, JointPage, TargetPage
+from .things import Zone
 
 __all__ = ["Explorer", "joint_explorer", "target_explorer"]
 
 MEANT = (
-    "Distance from singularity: the smallest singular value of the Jacobian, lengths divided by "
-    "the arm's reach so that it has no unit. It says how little the tool moves in its worst "
-    "direction; 0 is a singularity."
+    "Distance from singularity: the smallest singular value of the Jacobian, with lengths divided "
+    "by the arm's reach, so that it has no unit. It says how slowly the tool moves in its worst "
+    "direction; it is 0 at a singularity."
+)
+
+AREAS = (
+    "Where the grey areas overlap, both elbows reach the target. On a coloured line, the joint of "
+    "that colour is at its limit. "
 )
 
 
 def joint_explorer(
     arm: Arm, q: ArrayLike | None = None, *, singular: bool = False, wrist: bool = False
 ) -> "Explorer":
-    """Show an arm with a ring and a slider for each joint, all its frames, and the numbers of the
-    flange. It opens at the posture q (n,), by default at one that is easy to see. With `singular`
-    it also shows the distance from a singularity, says which singularities the posture has, and can
-    show the ellipsoid of tool velocities. With `wrist` it marks the wrist centre, where the axes of
-    the last three joints meet, in a larger picture of a translucent arm. It displays itself at the
-    end of a cell. TypeError: not an Arm. ValueError: a q that is not a posture; `wrist`, and the
-    last three axes do not meet in one point.
+    """Show an arm with a ring and a slider for each joint, all its frames, and the pose of the
+    flange. The explorer displays itself at the end of a cell. It opens at the posture q (n,), by
+    default at a posture that is easy to see.
+
+    With `singular`, it also shows the distance from a singularity and says which singularities the
+    posture has, and the reader can display the ellipsoid of tool velocities. With `wrist`, it shows
+    a larger picture of a translucent arm and marks the wrist centre, where the axes of the last
+    three joints meet.
 
     Roll, pitch and yaw are rotations about the fixed x, y and z axes of the base, in this order: R
-    = Rz Ry Rx. (At a pitch of +-90 degrees roll and yaw rotate about the same line, and roll is set
-    to zero.)
+    = Rz Ry Rx. (At a pitch of +-90 degrees, roll and yaw rotate about the same line, and roll is
+    set to zero.)
+
+    Raises TypeError if `arm` is not an Arm. Raises ValueError if q is not a posture, or if `wrist`
+    is True and the last three axes do not meet in one point.
     """
     instance(arm, Arm, "arm")
     start = _open(arm) if q is None else floats(q, "q", len(arm.limits))
@@ -121,19 +131,29 @@ def joint_explorer(
     return Explorer(data, still)
 
 
-def target_explorer(arm: ClosedFormArm | ThreeLeverArm, target: Pose | None = None) -> "Explorer":
-    """Show a target with rings and arrows to drag it, and every branch of `ik`, each with a row in
-    a table and the chosen one drawn boldly. A click on a row chooses the branch. The menu can do
-    that too, or select the usable branch nearest to the last posture. It opens at the pose
-    `target`, by default at one with as many usable branches as possible.
+def target_explorer(
+    arm: ClosedFormArm | ThreeLeverArm, target: Pose | None = None, *, zone: bool = False
+) -> "Explorer":
+    """Show a target that the reader can drag with rings and arrows, and every branch of `ik`. Each
+    branch has a row in a table, and the chosen branch is drawn boldly. The reader chooses a branch
+    by clicking its row or from a menu. The menu can also select the usable branch nearest to the
+    last posture. The explorer opens at the pose `target`, by default at one with as many usable
+    branches as possible.
 
-    The target of a six-axis arm is a position with roll, pitch and yaw as in `joint_explorer`; of a
-    SCARA, a position and the tool's angle; of a positioning arm, a position. For three levers it
-    shows the position, the free angle alpha, the curve of the cost of getting there from the
-    previous posture, and, for unequal levers, their lengths. TypeError: an arm with neither an
-    inverse nor a family of postures; a target of another type than Transform (ScaraPose for a
-    SCARA). ValueError: a batch of targets, a target out of reach, a target for three levers.
+    The target of a six-axis arm is a position with roll, pitch and yaw, as in `joint_explorer`. The
+    target of a SCARA is a position and the tool's angle, and that of a positioning arm is a
+    position. For three levers, the explorer shows the position, the free angle alpha, the curve of
+    the cost of moving there from the previous posture, and, if the levers are unequal, their
+    lengths.
+
+    With `zone`, the explorer shows a SCARA from above, with the zone in which the tool can be
+    (`things.Zone`), and says how far joint 1 or 2, whichever is nearer, is from its limit.
+
+    Raises TypeError if the arm has neither an inverse nor a family of postures, if `target` is not
+    a Transform (a ScaraPose for a SCARA), or if `zone` is true and the arm is not a SCARA. Raises
+    ValueError if `target` is a batch or out of reach, or if there is one for three levers.
     """
+    around = Zone(arm) if yes(zone, "zone") else None  # type: ignore[arg-type]
     if isinstance(arm, ThreeLeverArm):
         if target is not None:
             raise ValueError(f"target: wanted none for three levers, got {short(target)}")
@@ -160,6 +180,9 @@ def target_explorer(arm: ClosedFormArm | ThreeLeverArm, target: Pose | None = No
     count = int(usable.sum())
     found = "noneUsable" if not count else "oneUsable" if count == 1 else "someUsable"
     says = WORDS[found].format(count=count, all=len(rows), why=explain(arm, target, row))
+    watched = [0, 1] if around else []
+    if around and usable[row]:
+        says += f" {_room(arm, rows[row], watched)}"
     summary = WORDS["scene"].format(name=arm.name, values=values, says=says)
     shown = rows[np.isfinite(rows).all(axis=-1)]
     turning = np.flatnonzero(~arm.prismatic)
@@ -170,7 +193,11 @@ def target_explorer(arm: ClosedFormArm | ThreeLeverArm, target: Pose | None = No
         summary,
         controls,
         shown,
-        meant=TAKE + (f"{TURNS} " if arm.target is Transform else "") + MEANT,
+        things=[around] if around else [],
+        meant=TAKE
+        + (AREAS if around else "")
+        + (f"{TURNS} " if arm.target is Transform else "")
+        + MEANT,
         code=f"{imports(arm)}\ntarget = {_target_code(arm, size)}\n"
         f"q = {code_name(arm)}.ik(target)[{{row}}]",
     )
@@ -186,15 +213,18 @@ def target_explorer(arm: ClosedFormArm | ThreeLeverArm, target: Pose | None = No
             "verdict",
             *(f"q{i + 1} {unit['name']}" for i, unit in enumerate(units(arm))),
             "distance from singularity",
-            # only angles count: a stroke is the same in every row
+            # only angles are counted, since a stroke is the same in every row
             "travel, °" if whole else f"travel of {', '.join(f'q{j + 1}' for j in turning)}, °",
         ],
         "turning": turning.tolist(),
+        "watched": watched,
         "task": None,
     }
+    if around:
+        data["scene"]["view"] = list(STRAIGHT[2])
     others = [rows[k] for k in np.flatnonzero(np.isfinite(rows).all(axis=-1)) if k != row]
     posed = {"target": as_transform(target)} if arm.target is not np.ndarray else {}
-    still = picture(summary, arm, nearest(arm, rows[[row]], q), others, posed)
+    still = picture(summary, arm, nearest(arm, rows[[row]], q), others, posed, zone=around)
     return Explorer(data, still)
 
 
@@ -202,11 +232,11 @@ def target_explorer(arm: ClosedFormArm | ThreeLeverArm, target: Pose | None = No
 
 
 def _showcase(arm: ClosedFormArm) -> tuple[Floats, Floats, Floats]:
-    """A target with as many usable branches as possible, far from singularities, in front of the
-    arm and above the floor. (If there is none, the target at the middle of all limits.)
+    """Return a target with as many usable branches as possible, far from singularities, in front of
+    the arm and above the floor. (If there is none, return the target at the middle of all limits.)
 
-    Returns the position (3,) and the rotations in radians, in round numbers, and a posture (n,)
-    that reaches it.
+    The result is the position (3,) and the rotations in radians, in round numbers, and a posture
+    (n,) that reaches the target.
     """
     middle, size = arm.limits.mean(axis=-1), extent(arm)
     best, most = (arm.fk(middle).translation, _turned(arm, arm.fk(middle)), middle), -1.0
@@ -221,7 +251,7 @@ def _showcase(arm: ClosedFormArm) -> tuple[Floats, Floats, Floats]:
         usable = np.all(within(arm, rows), axis=-1)
         if usable.any():
             near = np.nanmin(distance_from_singularity(arm, rows))
-            # rank singular targets last: two branches coincide there and vanish a step farther
+            # Rank singular targets last: two branches coincide there and vanish a step farther.
             score = (usable.sum() if near > 0.03 else 0) + float(np.round(near, 6))
             if score > most:
                 best = place, turns, nearest(arm, rows[usable], np.zeros(len(arm.links)))
@@ -245,7 +275,9 @@ def _opened(arm: ClosedFormArm, target: Pose) -> tuple[Floats, Floats, Floats]:
 
 
 def _open(arm: Arm) -> Floats:
-    """A posture in round numbers, far from singularities, in front of the arm, above the floor."""
+    """Return a posture in round numbers that is far from singularities, in front of the arm and
+    above the floor.
+    """
     unit, size = sizes(arm), extent(arm)
     q = np.round(spread(arm, 160, 75 * deg) / unit / 5) * 5 * unit
     q = q[((q >= arm.limits[:, 0]) & (q <= arm.limits[:, 1])).all(axis=-1)]
@@ -261,8 +293,8 @@ def _open(arm: Arm) -> Floats:
 
 
 def _wrist_centre(arm: Arm) -> Floats:
-    """The point (3,) in flange coordinates where the last three axes meet. ValueError: they do
-    not.
+    """Return the point (3,) in flange coordinates where the last three axes meet. Raises ValueError
+    if they do not meet.
     """
     q = np.zeros(len(arm.links))
     frames, last = arm.frames(q), range(len(q))[-3:]
@@ -278,7 +310,9 @@ def _wrist_centre(arm: Arm) -> Floats:
 
 
 def _wrist_turns(arm: Arm, q: Floats) -> Floats:
-    """Postures (k, n) in which one of the last three joints of q (n,) turns between its limits."""
+    """Return postures (k, n) in which one of the last three joints of q (n,) moves between its
+    limits.
+    """
     turned = np.tile(q, (3, 25, 1))
     for row, j in zip(turned, range(len(q))[-3:], strict=True):
         low, high = arm.limits[j].clip(-180 * deg, 180 * deg)
@@ -294,7 +328,7 @@ def _turns(arm: Arm) -> tuple[str, ...]:
 
 
 def _asked(arm: Arm, place: Floats, turns: Floats) -> Pose:
-    """The target with this position (3,) and these rotations in radians."""
+    """Return the target with this position (3,) and these rotations in radians."""
     if arm.target is ScaraPose:
         return ScaraPose(place, turns[0])
     if arm.target is Transform:
@@ -316,3 +350,11 @@ def _target_code(arm: Arm, size: float) -> str:
         turns = "{roll} * deg, {pitch} * deg, {yaw} * deg"
         return f"robokin.Transform(robokin.Quaternion.from_roll_pitch_yaw({turns}), {place})"
     return place
+
+
+def _room(arm: Arm, q: Floats, joints: list[int]) -> str:
+    """How far the joint that is nearest to a limit is from it, as a sentence."""
+    room = abs(arm.limits[joints] - q[joints, None]) / deg
+    k, side = np.unravel_index(room.argmin(), room.shape)
+    limit = f"{arm.limits[joints[k], side] / deg:g}°"
+    return WORDS["room"].format(joint=joints[k] + 1, room=number(room.min(), 1), limit=limit)

@@ -25,8 +25,8 @@ TRACED = 1001  # maximum number of points in a tool's path
 
 
 class Film:
-    """A film of the first motion of a player, with which it opens. Fixed things are drawn once;
-    only arms and moving things, with their labels, are drawn for each frame.
+    """A film of the motion with which a player opens. Fixed things are drawn once; only arms and
+    moving things, with their labels, are drawn again for each frame.
     """
 
     def __init__(
@@ -42,7 +42,9 @@ class Film:
         self.page, self.title, self.bases = page, title, bases
 
     def gif(self) -> bytes:
-        """Return the film as a GIF that repeats forever. ValueError: it is larger than 3 MB."""
+        """Return the film as a GIF that repeats forever. Raises ValueError if it is larger than 3
+        MB.
+        """
         seconds = float(self.t[-1] - self.t[0])
         count = max(2, min(FRAMES, int(seconds * RATE) + 1))
         times = np.linspace(self.t[0], self.t[-1], count)
@@ -97,7 +99,7 @@ class Film:
             yield np.array(canvas.buffer_rgba())[..., :3]
 
     def _still(self, scene: Scene, arms: Sequence[tuple[Arm, Floats, Floats]]) -> None:
-        """Draw the parts that do not move: bases, paths of the tools, fixed things."""
+        """Draw what does not move: the bases, the paths of the tools, and the fixed things."""
         for arm, q, base in arms:
             scene.base(base)
             some = np.linspace(0, len(q) - 1, min(len(q), TRACED)).astype(int)

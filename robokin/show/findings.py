@@ -1,5 +1,5 @@
-"""Findings in recorded motions, for the text next to their curves: greatest values, the distance to
-a via point, jumps and gaps, and a summary in one sentence.
+"""Findings in recorded motions, for the text next to their curves: the greatest values, the
+distance to a via point, jumps and gaps, and a summary in one sentence.
 """
 
 from collections.abc import Iterable, Sequence
@@ -18,8 +18,8 @@ from .page import Flaws, Greatest, PageArm, Slider, Switch, Unit
 
 
 def greatest(track: Recording, units: Floats, length: str, decimals: Sequence[int]) -> Greatest:
-    """For each motion and joint: the greatest speed, its percentage of the limit, the greatest
-    acceleration.
+    """Return the greatest speed, its percentage of the limit, and the greatest acceleration, for
+    each motion and joint.
     """
     arm, limits = track.arm, track.arm.speed_limits
     speed = np.nan_to_num(track.greatest_speed.value)
@@ -44,7 +44,7 @@ def greatest(track: Recording, units: Floats, length: str, decimals: Sequence[in
 
 
 def sampled(t: Floats) -> str:
-    """Say from which samples the greatest values come, since values between the samples are not
+    """Say which samples the greatest values come from, since values between the samples are not
     included.
     """
     least, most = np.diff(t).min(), np.diff(t).max()
@@ -55,10 +55,10 @@ def sampled(t: Floats) -> str:
 
 
 def closest(arm: Arm, q: Floats, via: Floats, unit: float) -> list[list[float] | None]:
-    """For each motion [smallest distance from the via point in the length unit, x, y, z of that
-    place in metres]. `via` is the via point: (motions or 1, 1, 3).
+    """Return [smallest distance from the via point in the length unit, x, y, z of the nearest place
+    in metres] for each motion, or None if it has no path. `via` has the shape (motions or 1, 1, 3).
 
-    The path is the polyline through all samples; NaN interrupts it. None if there is no path.
+    The path is the polyline through all samples; NaN interrupts it.
     """
     path = flange(arm, q).translation - via
     place = np.broadcast_to(via, (len(path), 1, 3))[:, 0]
@@ -81,16 +81,17 @@ def closest(arm: Arm, q: Floats, via: Floats, unit: float) -> list[list[float] |
 
 
 def flags(arm: ClosedFormArm, k: int) -> str:
-    """The name of branch k: its number and its flags, such as "2: +1 −1 +1"."""
+    """Return the name of branch k: its number and its flags, such as "2: +1 −1 +1"."""
     flags = " ".join(f"{flag:+d}" for flag in arm.branches[k]).replace("-", "\N{MINUS SIGN}")
     return f"{k}: {flags}"
 
 
 def rows(arm: Arm, q: Floats) -> list[list[tuple[int, str]]] | None:
-    """For each motion of q (motions, samples, n), the rows of `ik` to which its postures belong:
-    the first sample and the name of each. None if the arm has no inverse or only one row.
+    """Return the rows of `ik` to which the postures of each motion in q (motions, samples, n)
+    belong, as pairs of the first sample and the name of the row. Return None if the arm has no
+    inverse or only one row.
 
-    Where rows coincide, at a singularity, the posture keeps the row of the sample before.
+    Where rows coincide at a singularity, a posture keeps the row of the previous sample.
     """
     if not isinstance(arm, ClosedFormArm) or len(arm.branches) < 2:
         return None
@@ -110,8 +111,8 @@ def rows(arm: Arm, q: Floats) -> list[list[tuple[int, str]]] | None:
 
 
 def spells(t: Floats, holds: Bools) -> str:
-    """The times at which `holds` is true, as text: "from 0.00 to 6.72 s", or the first interval and
-    the number of the others.
+    """Return the times at which `holds` is true as text: "from 0.00 to 6.72 s". If there are
+    several intervals, this is the first one, followed by the number of the others.
     """
     edges = np.flatnonzero(np.diff(np.concatenate([[False], holds, [False]]).astype(int)))
     first = f"from {tidy(t[edges[0]], 2):.2f} to {tidy(t[edges[1] - 1], 2):.2f} s"
@@ -119,8 +120,8 @@ def spells(t: Floats, holds: Bools) -> str:
 
 
 def flaws(track: Recording, kept: Ints, units: Floats, length: str) -> Flaws:
-    """The flaws of each motion that has any: gaps between kept samples, jumps to mark with their
-    labels, and sentences.
+    """Return the flaws of each motion that has any: the gaps between kept samples, the jumps to
+    mark with their labels, and sentences.
     """
     gaps: dict[int, list[int]] = {}
     jumps: dict[int, list[Any]] = {}
@@ -168,7 +169,7 @@ def flaws(track: Recording, kept: Ints, units: Floats, length: str) -> Flaws:
         for j, excess in enumerate(track.speed_excess[c].T):
             if (excess > 0).any():
                 notes.setdefault(c, []).append(
-                    f"q{j + 1} is past its speed limit in {(excess > 0).sum()} of {count} samples, "
+                    f"q{j + 1} exceeds its speed limit in {(excess > 0).sum()} of {count} samples, "
                     f"{spells(track.t, excess > 0)}."
                 )
         if track.missing[c].any():
@@ -190,8 +191,8 @@ def summary_and_alt(
     slider: Slider | None,
     switch: Switch | None,
 ) -> tuple[str, str]:
-    """A summary of the player in one sentence, with rounded numbers, and the alt text of its still
-    picture.
+    """Return a summary of the player in one sentence, with rounded numbers, and the alt text of its
+    still picture.
     """
     who = " and ".join(dict.fromkeys(arm["name"] for arm in arms))
     parts = [f"{tidy(t[-1] - t[0], 3):g} s"]

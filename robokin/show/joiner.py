@@ -29,26 +29,26 @@ CSS_LINE = re.compile(r"(.{160,}?[{};])(?!\})")
 NEEDS_BLANK = re.compile(r"[\w$]{2}|[-+/<!]{2}|\d\.")  # without a space the two tokens would merge
 
 
-@cache  # since a lab has about twenty outputs with few different scripts
+@cache  # since a lab has about twenty outputs, but only a few different scripts
 def script(name: str) -> str:
-    """Return the module `name` of the folder js and all its imports, each once and in its own
-    scope, as one script in which `$name` holds its exports. `call` in `output.Output` and
-    `explorer.Explorer` names the module of an output. Comments and unnecessary whitespace are
-    removed, and the lines are long, because every additional line costs ten bytes in a notebook. A
-    line ends only after `;`, `,` or a brace, so every statement of a module must end with `;` or a
-    brace.
+    """Return the module `name` of the folder js and all its imports as one script, in which `$name`
+    holds the exports of the module. Each module occurs once, in its own scope. `call` in
+    `output.Output` and `explorer.Explorer` names the module of an output. Comments and unnecessary
+    whitespace are removed. The lines are long, because every additional line costs ten bytes in a
+    notebook. A line ends only after `;`, `,` or a brace, so every statement of a module must end
+    with `;` or a brace.
 
-    ValueError: an import or an export with a form other than `import {a, b} from "./x.js";` and
-    `export function`, `const` or `class`; a comment or a literal that is not closed.
+    Raises ValueError if an import or an export has a form other than `import {a, b} from "./x.js";`
+    and `export function`, `const` or `class`, or if a comment or a literal is not closed.
     """
     return "\n".join(_modules(name).values())
 
 
 @cache
 def compressed(name: str) -> tuple[str, str]:
-    """Return the script of the module `name` for `loader.js`: its key, a hash of its text, and the
-    script, compressed with zlib, in base64. The script adds the style sheets of `name` to the page
-    and returns the exports of the module.
+    """Return the script of the module `name` in the form that `loader.js` reads: its key, which is
+    a hash of its text, and the script itself, compressed with zlib and encoded in base64. The
+    script adds the style sheets of `name` to the page and returns the exports of the module.
     """
     sheet = json.dumps(style(name), ensure_ascii=False)
     text = (
@@ -56,14 +56,16 @@ def compressed(name: str) -> tuple[str, str]:
         f"sheet.textContent = {sheet};\ndocument.head.append(sheet);\n"
         f"{script(name)}\nreturn ${name};"
     ).encode()
-    # The text is hashed, because another zlib may compress the same text to different bytes.
+    # The key is a hash of the text, because another version of zlib may compress the same text to
+    # different bytes.
     return hashlib.sha256(text).hexdigest()[:12], base64.b64encode(zlib.compress(text, 9)).decode()
 
 
 @cache
 def style(name: str) -> str:
-    """Return the style sheets x.css of all modules x in `script(name)`, in the same order: the
-    sheet of a module follows those of its imports. Comments and unnecessary whitespace are removed.
+    """Return the style sheets x.css of all modules x in `script(name)`, in the same order, so that
+    the sheet of a module follows those of its imports. Comments and unnecessary whitespace are
+    removed.
     """
     sheets = [files(__package__).joinpath("js", f"{module}.css") for module in _modules(name)]
     text = "\n".join(sheet.read_text(encoding="utf-8") for sheet in sheets if sheet.is_file())
@@ -72,7 +74,7 @@ def style(name: str) -> str:
 
 
 def _modules(name: str) -> dict[str, str]:
-    """Return the scripts of all modules that `name` needs; its own comes last."""
+    """Return the scripts of all modules that `name` needs; its own script comes last."""
     modules: dict[str, str] = {}
     _add(modules, name, (), f"{name}.js")
     return modules

@@ -1,4 +1,4 @@
-"""A figure of joint curves over time, which a notebook shows as curves of the page."""
+"""A figure of joint curves over time. In a notebook, the page draws the curves."""
 
 from collections.abc import Mapping, Sequence
 from dataclasses import replace
@@ -34,8 +34,8 @@ class Curves(Output):
 
 
 class JointFigure(Figure):
-    """A figure of joint curves. A notebook shows its `page`, the same curves, which follow the
-    theme and the width; the figure itself is the still picture.
+    """A figure of joint curves. A notebook shows its `page`, which draws the same curves in the
+    theme and the width of the notebook; the figure itself is the still picture.
     """
 
     page: PageCurves
@@ -44,7 +44,7 @@ class JointFigure(Figure):
         return Curves(self.page, self)._repr_mimebundle_() | {"text/plain": self.alt}
 
     def _in_page(self, nonce: str = "") -> str:
-        """The HTML for a page whose policy permits only scripts with this nonce."""
+        """Return the HTML for a page whose security policy permits only scripts with this nonce."""
         return Curves(self.page, self)._in_page(nonce)
 
 
@@ -58,20 +58,20 @@ def plot_joints(
     title: str | None = None,
     alt: str | None = None,
 ) -> "JointFigure":
-    """Plot joint values over time and, if given, speeds and accelerations: one panel each, with a
-    common time axis.
+    """Plot joint values over time and, if given, speeds and accelerations, each in its own panel,
+    with a common time axis.
 
         plot_joints(arm, t, q), plot_joints(arm, t, q, v), plot_joints(arm, t, q, v, a)
-        plot_joints(record(arm, t, q))      all three, with the recording's own speeds and
-                                            accelerations
+        plot_joints(record(arm, t, q))      all three, with the speeds and accelerations of the
+                                            recording
 
-    t (samples,) in seconds; q, v, a (samples, n) in radians and metres, drawn as they are: NaN is a
-    gap, a jump by a whole turn is drawn as a jump. Prismatic joints have panels of their own, in
-    mm. A limit is shaded if its joint comes near it; samples past it are marked and counted.
-    Samples are compared with the limits as drawn; q + 360 degrees may still be inside (see
-    `within`). Jumps are those that `record` finds. A lone spike, which a jump leaves in v or a when
-    it is differentiated, does not set the scale: it extends beyond the panel, and its heading says
-    so.
+    t (samples,) is in seconds; q, v and a (samples, n) are in radians and metres. They are drawn as
+    they are: NaN leaves a gap, and a jump by a whole turn is drawn as a jump. Prismatic joints have
+    panels of their own, in mm. A limit is shaded if its joint comes near it; samples that exceed it
+    are marked and counted. Samples are compared with the limits as they are drawn; q + 360 degrees
+    may still be inside the limits (see `within`). Jumps are those that `record` finds.
+    Differentiating a jump leaves a lone spike in v or a. A spike does not affect the scale: it
+    extends beyond the panel, and the heading of the panel says so.
 
     A notebook shows the curves in the colours and the width of the page, with prismatic joints on
     an axis on the right; `savefig` writes the figure to a file.
@@ -80,7 +80,7 @@ def plot_joints(
     given = {kind: values for kind, values in (("v", v), ("a", a)) if values is not None}
     if isinstance(arm, Recording):
         if t is not None or q is not None:
-            raise ValueError("t and q: not wanted with a recording, which has its own")
+            raise ValueError("t and q: not allowed with a recording, which has its own")
         if arm.shape:
             raise ValueError(f"recording: wanted a single motion, got shape {arm.shape}")
         recording, kinds = arm, ["q", "v", "a"]
@@ -132,8 +132,8 @@ def curves_page(
     alt: str,
     notes: list[tuple[str, bool]],
 ) -> PageCurves:
-    """The data of the page: the curves `drawn` (samples, n) of these kinds, with the scales of the
-    recording, in which spikes are NaN.
+    """Return the data of the page: the curves `drawn` (samples, n) of these kinds. The scales are
+    those of the recording, in which spikes are NaN.
     """
     arm, t = recording.arm, recording.t
     track = in_a_row(recording)
@@ -182,8 +182,8 @@ def curves_page(
 
 
 def _in_view(values: Floats, arm: Arm, panel: PagePanel) -> Floats:
-    """The values (samples, n), clipped far outside the panel: a spike of thousands would make the
-    steps of `packed` coarse.
+    """Return the values (samples, n), clipped far outside the panel, because a spike of thousands
+    would make the steps of `packed` coarse.
     """
     ends = []
     for shifts in arm.prismatic:

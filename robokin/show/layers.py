@@ -1,4 +1,4 @@
-"""The layers of a scene's figures, from back to front: the values of Matplotlib's `zorder`."""
+"""The layers of a figure, from back to front, as values of Matplotlib's `zorder`."""
 
 FLOOR = 0.0
 SHADOW = 0.5

@@ -1,10 +1,10 @@
 """Views that need a kernel: the page draws, and Python answers its questions.
 
 A view is an `explorer.Explorer` whose script (`js/live.js`) sends questions. It stores the first
-answer, from which it is drawn without a kernel: in a saved notebook, in an exported page and in
-print. It is then asleep, and says so. A widget without a view of its own wakes it: the model of the
-widget finds the view in the page. A page without a kernel therefore still shows everything that is
-stored.
+answer, so that it can be drawn without a kernel: in a saved notebook, in an exported page and in
+print. Without a kernel, the view is inactive and says so. A widget without a view of its own
+activates it: the model of the widget finds the view in the page. A page without a kernel therefore
+still shows everything that is stored.
 """
 
 import base64
@@ -24,7 +24,7 @@ Answer: TypeAlias = dict[str, Any]
 
 TYPES = ("uint8", "uint16", "int16", "float32")
 WORDS = {
-    "asleep": "Asleep: this view needs Python. Run its cell, and it follows your hand. Until then "
+    "asleep": "Inactive: this view needs Python. Run its cell to activate it. Until then, "
     "it shows the result of the last run.",
     "waiting": "No answer from Python yet. It may be busy with another cell; if the kernel was "
     "restarted, run this cell again.",
@@ -34,13 +34,13 @@ WORDS = {
 
 class Live(Explorer):
     """An explorer that asks a kernel. It displays itself in a notebook; `save` writes it as a page,
-    where it is asleep.
+    in which it is inactive.
 
-    data    a `page.PlanPage` or `TourPage` without `first` and without the words of this module
+    data    a `page.PlanPage` or `TourPage`, without `first` and without the words of this module
     still   the still picture, as in every `Explorer`
     first   the question that is asked first; its answer is stored
-    answer  a function: question (JSON values) -> answer, a dict of JSON values and arrays of
-            the TYPES. It is called on every move of the pointer, in its own thread
+    answer  a function that maps a question (JSON values) to an answer, a dict of JSON values and
+            arrays of the TYPES. It is called on every move of the pointer, in its own thread
     """
 
     def __init__(
@@ -62,8 +62,8 @@ class Live(Explorer):
 
 
 def split_arrays(answer: Any) -> tuple[Any, list[bytes]]:
-    """Split an answer into JSON values and its arrays. Each array is replaced by {"array": number,
-    "type", "shape"}. ValueError: an array of another type.
+    """Split an answer into JSON values and its arrays. Each array is replaced by {"array": its
+    index, "type", "shape"}. Raises ValueError if the type of an array is not in TYPES.
     """
     buffers: list[bytes] = []
 
@@ -98,17 +98,17 @@ def stored(content: Any, buffers: list[bytes]) -> Any:
 
 # --- The widget -----------------------------------------------------------------------------------
 
-_awake: dict[str, Any] = {}  # id of a view -> its widget; a cell that runs again replaces it
+_awake: dict[str, Any] = {}  # the widget of each view, by id; running the cell again replaces it
 
 
 def _wake(place: str, answer: Callable[[Question], Answer]) -> None:
-    """Answer the questions of this view of the page from now on."""
+    """Answer all questions that this view of the page asks from now on."""
 
     def reply(model: Any, message: Any, _: Any) -> None:
         try:
             content, buffers = split_arrays(answer(message["question"]))
             inert(content)
-        except Exception as error:  # shown by the view, since output of this thread is not visible
+        except Exception as error:  # the view shows it, since this thread's output is not visible
             content, buffers = {"error": f"{type(error).__name__}: {error}"}, []
         model.send({"to": message["to"], "n": message["n"], "answer": content}, buffers)
 
@@ -122,8 +122,8 @@ def _wake(place: str, answer: Callable[[Question], Answer]) -> None:
 
 def unseen(page: str, hear: Callable[[Any, Any, Any], None]) -> Any:
     """Return a widget without a view. `page` is a module whose default export has
-    `initialize({model})`; `hear` is called with the widget, a message from that model and its
-    buffers.
+    `initialize({model})`. `hear` is called with the widget, a message from that model, and the
+    buffers of the message.
     """
     from anywidget import AnyWidget  # imported here because it loads ipywidgets
 

@@ -1,5 +1,5 @@
-"""The HTML of views and figures: a still picture, and the script that replaces it. `saving` writes
-it to files.
+"""The HTML of views and figures: a still picture, and the script that replaces it. The module
+`saving` writes it to files.
 """
 
 import base64
@@ -17,7 +17,9 @@ STILL = (
 
 
 def inert(data: Any) -> str:
-    """Return `data` as JSON that is safe inside a script. ValueError: JSON cannot represent it."""
+    """Return `data` as JSON that is safe inside a script. Raises ValueError if JSON cannot
+    represent it.
+    """
     try:
         text = json.dumps(data, separators=(",", ":"), ensure_ascii=False, allow_nan=False)
         text.encode()
@@ -37,7 +39,7 @@ def still_image(png: bytes, alt: str) -> str:
 
 def figure_image(png: bytes, alt: str, width: int, height: int, least: int) -> str:
     """Return a figure of `width` x `height` pixels that follows the theme and the width of the
-    page. It is never narrower than `least` pixels; on a narrower page it scrolls.
+    page. It is never narrower than `least` pixels; on a narrower page, it scrolls.
     """
     image = base64.b64encode(png).decode()
     return (
@@ -49,9 +51,10 @@ def figure_image(png: bytes, alt: str, width: int, height: int, least: int) -> s
 
 
 def output(call: str, name: str, text: str, still: str, nonce: str = "") -> str:
-    """Return a piece of HTML: `still`, and the script that replaces it. `text` is a `Page`,
-    `PageExplorer` or `PageQuestion` as JSON. `call` names the module and its function, such as
-    "player.play". `nonce` is the nonce of a page whose policy forbids scripts without it.
+    """Return a piece of HTML that contains `still` and the script that replaces it. `text` is a
+    `Page`, `PageExplorer` or `PageQuestion` as JSON. `call` names the module and its function, such
+    as "player.play". `nonce` is the nonce of a page whose security policy forbids scripts without
+    it.
     """
     module, _ = call.split(".")
     key, bytes_of_script = compressed(module)

@@ -17,9 +17,9 @@ from ..motion.recording import FEW, LEAP, record
 from ..transform import Transform
 from ..units import length_unit, mm
 from .camera import extent
+from .checks import yes
 from .explorer import (
     TAKE,
-    WORDS,
     Explorer,
     Pose,
     arm_page,
@@ -39,6 +39,8 @@ from .palette import DASHES
 from .player import still_picture
 from .things import Target
 
+BLEND = 0.1  # with which an explorer opens
+STRAIGHT = 1e-3  # rad: a smaller change of direction is not a corner
 SAMPLES = 241  # samples of a motion: enough for its speeds, few enough to follow the pointer
 LAWS: Mapping[Law, Callable[[float], TimeLaw]] = {
     "quintic": quintic,
@@ -58,43 +60,58 @@ def motion_explorer(
     *,
     law: Law = "quintic",
     duration: float = 5.0,
+    close_up: bool = False,
 ) -> "Explorer":
-    """Show a blended motion past `via`: start, via and goal with rings and arrows to drag, sliders
-    for the via point, the blend and the duration, menus for the time law, the corner and the
-    branch. The arm, the curves and the numbers follow; the motion can be played, and a click on a
-    curve sets the clock. The explorer opens with the time law `law` and a `duration` in seconds, on
-    branch `row`, by default the first of those with the most usable samples.
+    """Show a blended motion past the via point `via`. The reader can drag start, via point and goal
+    with rings and arrows, move the via point and set the blend and the duration with sliders, and
+    choose the time law, the corner and the branch from menus. The arm, the curves and the numbers
+    follow. The motion can be played, and a click on a curve sets the clock. The explorer opens with
+    the time law `law`, a `duration` in seconds, and the branch `row`, by default the first of those
+    with the most usable samples.
 
-    The poses are single targets of `arm.ik` (Transform, or ScaraPose for a SCARA). ValueError: a
-    batch of poses, or an unknown row. TypeError: poses of another type, or an arm without `ik`.
+    With `close_up` start, via point and goal stay where they are. The picture shows the corner at
+    the via point, in the plane of its two lines, with a ring that changes the blend. Beside it are
+    the accelerations and the name of the joint that works hardest.
+
+    The poses are single targets of `arm.ik` (Transform, or ScaraPose for a SCARA). Raises
+    ValueError if they are batches of poses, if there is no such row, or if there is no corner to
+    show close up. Raises TypeError if the poses are of another type, or if the arm has no `ik`.
     """
     inverted(arm)
-    kind = ScaraPose if arm.target is ScaraPose else Transform
     stations = {"start": start, "via": via, "goal": goal}
-    for name, pose in stations.items():
-        if instance(pose, kind, name).shape:
-            raise ValueError(f"{name}: wanted a single pose, got a batch of shape {pose.shape}")
+    posed = _posed(arm, stations)
     choice(law, "law", list(LAWS))
     seconds = _seconds(duration)
     progress = LAWS[law](seconds)
+
+    def path(x: Floats) -> Pose:
+        return blend(start, via, goal, BLEND, progress(x))
+
     t = np.linspace(0, seconds, SAMPLES)
-    rows = arm.ik(blend(start, via, goal, 0.1, progress(t)))
+    rows = arm.ik(path(t))
     motions = [follow(arm, rows, k) for k in range(len(arm.branches))]
     usable = [(record(arm, t, q).excess <= 0).all(axis=-1).sum() for q in motions]
     row = int(np.argmax(usable)) if row is None else whole(row, "row", 0, len(usable) - 1)
-    posed = {name: as_transform(pose) for name, pose in stations.items()}
     through = motions[row][np.isfinite(motions[row]).all(axis=-1)][::40]
-    summary = _summary(
-        arm, lambda x: blend(start, via, goal, 0.1, progress(x)), t, motions[row], row
+    if yes(close_up, "close_up"):
+        title, point, more = "a rounded corner", "a via point", ""
+        result = _passes(arm, posed, path, seconds)
+    else:
+        title, point = "a blended motion", "a via point that can be moved"
+        more = "You can move start and goal, too. "
+        result = _greatest_speed(arm, path, t, motions[row])
+    summary = (
+        f"{arm.name} on a blended motion past {point}, {seconds:g} s, blend {BLEND:g}, branch "
+        f"{flags(arm, row)}: {result}."
     )
     page = arm_page(
         arm,
-        f"{arm.name}: a blended motion",
+        f"{arm.name}: {title}",
         summary,
-        _controls(arm),
+        _controls(arm)[3 * close_up :],
         through,
         posed,
-        meant=TAKE + "You can move start and goal, too. Click a curve to set the clock.",
+        meant=f"{TAKE}{more}Click a curve to set the clock.",
         code=_motion_code(arm, stations),
     )
     data: MotionPage = {
@@ -105,7 +122,7 @@ def motion_explorer(
         "via": pose_data(via),
         "goal": pose_data(goal),
         "start_values": {
-            "blend": 0.1,
+            "blend": BLEND,
             "duration": seconds,
             "law": list(LAWS).index(law),
             "corner": 0,
@@ -117,7 +134,7 @@ def motion_explorer(
         "samples": SAMPLES,
         "jumps": {"least": LEAP, "few": FEW},
         "panels": ["joint values q", "speeds q\N{PRIME}", "accelerations q\N{DOUBLE PRIME}"],
-        "words": {**WORDS, "near": WORDS["near"].replace("}", f"}} {length_unit(extent(arm))[0]}")},
+        "close_up": close_up,
     }
     still = still_picture(
         [arm.name],
@@ -130,20 +147,52 @@ def motion_explorer(
     return Explorer(data, still)
 
 
-def _summary(
-    arm: ClosedFormArm, pose: Callable[[Floats], Pose], t: Floats, q: Floats, row: int
+def _posed(arm: ClosedFormArm, stations: Mapping[str, Pose]) -> dict[str, Transform]:
+    """Return the flange poses of start, via point and goal. Raises TypeError if one of them is not
+    a target of this arm, and ValueError if it is a batch.
+    """
+    kind = ScaraPose if arm.target is ScaraPose else Transform
+    for name, pose in stations.items():
+        if instance(pose, kind, name).shape:
+            raise ValueError(f"{name}: wanted a single pose, got a batch of shape {pose.shape}")
+    return {name: as_transform(pose) for name, pose in stations.items()}
+
+
+def _greatest_speed(
+    arm: ClosedFormArm, pose: Callable[[Floats], Pose], t: Floats, q: Floats
 ) -> str:
-    """The motion and its greatest speed in one sentence."""
+    """Describe the greatest speed of a motion."""
     speed, j, of = _fastest(arm, pose, t, q)
-    return (
-        f"{arm.name} on a blended motion past a via point that can be moved, {t[-1]:g} s, "
-        f"blend 0.1, branch {flags(arm, row)}: greatest speed{of} {number(speed, 1)} "
-        f"{units(arm)[j]['name']}/s (joint {j + 1})."
-    )
+    return f"greatest speed{of} {number(speed, 1)} {units(arm)[j]['name']}/s (joint {j + 1})"
+
+
+def _passes(
+    arm: Arm,
+    stations: Mapping[str, Transform],
+    pose: Callable[[Floats], Pose],
+    duration: float,
+) -> str:
+    """Describe how far from the via point a path passes. Raises ValueError if the path has no
+    corner there.
+    """
+    start, via, goal = (station.translation for station in stations.values())
+    legs = np.stack([start - via, goal - via])
+    size = np.linalg.norm(legs, axis=-1, keepdims=True)
+    if size.min() < 1e-6 * extent(arm) or np.linalg.norm((legs / size).sum(axis=0)) < STRAIGHT:
+        raise ValueError("close_up: wanted a corner at via, got start, via and goal on one line")
+
+    def near(x: Floats) -> Floats:
+        gaps = as_transform(pose(x)).translation - via
+        return -np.asarray(np.linalg.norm(gaps, axis=-1))
+
+    unit, metres = length_unit(extent(arm))
+    decimals = 1 if metres == mm else 3
+    distance = -refined_maximum(lambda x: near(x) / metres, 0, duration, decimals).value
+    return f"its path passes {number(distance, decimals)} {unit} from via"
 
 
 def _seconds(duration: float) -> float:
-    """Return a valid duration."""
+    """Return the duration as a float. Raises ValueError if it is too short or too long."""
     wanted = f"from {SHORTEST:g} to {LONGEST:g} s"
     seconds = positive(duration, "duration", wanted)
     if not SHORTEST <= seconds <= LONGEST:
@@ -152,7 +201,7 @@ def _seconds(duration: float) -> float:
 
 
 def _controls(arm: ClosedFormArm) -> list[Control]:
-    """The sliders: the via point, the blend and the duration."""
+    """Return the sliders of the via point, the blend and the duration."""
     unit, size = length_unit(extent(arm))
     most = float(np.ceil(1.05 * extent(arm) / (50 * mm)) * 50 * mm / size)
     step = 1 if size == mm else 0.001
@@ -166,9 +215,9 @@ def _controls(arm: ClosedFormArm) -> list[Control]:
 def _fastest(
     arm: ClosedFormArm, pose: Callable[[Floats], Pose], t: Floats, q: Floats
 ) -> tuple[float, int, str]:
-    """The greatest speed of a motion with the samples q (samples, n), in the joint's unit; its
-    joint; and a qualification: "" if it includes the values between the samples, because the motion
-    is complete and passes no singularity.
+    """Return the greatest speed of a motion with the samples q (samples, n), in the joint's unit;
+    the joint; and a qualification. The qualification is "" if the speed includes the values between
+    the samples, because the motion is complete and passes no singularity.
     """
     scale, h, track = sizes(arm), 1e-7 * t[-1], record(arm, t, q)
 

@@ -1,5 +1,5 @@
-"""The motor explorer: a stepper motor on a page, seen along its shaft. The reader can turn its
-rotor without a kernel.
+"""The motor explorer: a stepper motor on a page, seen along its shaft, whose rotor the reader can
+turn without a kernel.
 
 The page computes with `js/rotor.js`, which implements `jobs.steppers.Stepper`. The phase tables,
 the positions of the poles and all text come from this module.
@@ -25,7 +25,7 @@ KINDS = {
     ("active", "bipolar"): "magnet (active), bipolar",
     ("passive", "unipolar"): "soft iron (passive), unipolar",
 }
-ON, OTHER, NORTH = (JOINT_STYLES[j]["color"] for j in (4, 5, 1))  # + current, - current, N pole
+ON, OTHER, NORTH = (JOINT_STYLES[j]["color"] for j in (4, 5, 1))  # current > 0, current < 0, N pole
 PLUS, MINUS = "+", "\N{MINUS SIGN}"
 WORDS = {
     "motor": "rotor, feed",
@@ -53,11 +53,11 @@ WORDS = {
     "gap": "{lost} lost",
     "allMade": "{pulses} pulses, {how}: the rotor makes every step.",
     "someLost": "{pulses} pulses, {how}: {lost} of {pulses} steps lost.",
-    "runsBack": "{pulses} pulses, {how}: {lost} steps lost. The load runs back.",
+    "runsBack": "{pulses} pulses, {how}: {lost} steps lost. The load slips back.",
     "tooMany": "{pulses} pulses, {how}: {lost} steps too many.",
     "plain": "{end} per second from the first to the last",
     "ramped": "from {start} up to {top} per second and down again",
-    "slow": "Run shows it {slow} times slower.",
+    "slow": "The run is shown {slow} times slower than real time.",
     "inStep": "Pulses sent: {sent}. The rotor is where it should be.",
     "behind": "Pulses sent: {sent}. The rotor is {lost} steps behind.",
     "ahead": "Pulses sent: {sent}. The rotor is {lost} steps ahead.",
@@ -76,7 +76,7 @@ WORDS = {
 }
 MEANT = (
     "Take hold of the ring on the rotor, turn it away, and let it go. Click a row of the table to "
-    "switch the windings as it says. The load is a weight on a drum: it always pulls backwards."
+    "switch its windings on. The load is a weight on a drum: it always pulls backwards."
 )
 Quantity: TypeAlias = Literal["end", "load", "inertia", "start", "ramp"]
 CONTROLS: Sequence[tuple[Quantity, float, str, str, float, float, float, int]] = (
@@ -92,7 +92,7 @@ FREQUENCY = 160  # pulses per second on opening
 
 class PagePole(TypedDict):
     """A pole of the stator: its position in rad, its winding, the direction of the winding (+1 or
-    -1), and the name on it.
+    -1), and its label.
     """
 
     at: float
@@ -102,10 +102,10 @@ class PagePole(TypedDict):
 
 
 class PageMotor(TypedDict):
-    """A motor with a given rotor, feed and number of windings: the arguments of rotor.js (`turn`,
-    `periods`, `sharp`), the poles, the teeth of a passive rotor (0: a magnet), the revolutions of
-    the field in the picture per electrical revolution (`space`), the headings of the table, and for
-    each drive the currents and the table as the document prints it.
+    """A motor with a given rotor, feed and number of windings. It contains the arguments of
+    rotor.js (`turn`, `periods`, `sharp`), the poles, the number of teeth of a passive rotor (0 for
+    a magnet), the revolutions of the field in the picture per electrical revolution (`space`), the
+    headings of the table and, for each drive, the currents and the table as the document prints it.
     """
 
     windings: int
@@ -121,7 +121,7 @@ class PageMotor(TypedDict):
 
 
 class MotorKind(TypedDict):
-    """A rotor and a feed, their name on the page, and the motors that have them, by number of
+    """A rotor and a feed: their name on the page, and the motors that have them, by number of
     windings.
     """
 
@@ -165,8 +165,8 @@ class MotorControl(Control):
 
 
 class MotorValues(TypedDict):
-    """The current choice: the indices of a kind, of a motor in it and of a drive; frequencies,
-    load, and ramp time in the units of their sliders.
+    """The current choice: the indices of a kind, of a motor of this kind and of a drive; and the
+    frequencies, the load and the ramp time in the units of their sliders.
     """
 
     kind: int
@@ -180,9 +180,9 @@ class MotorValues(TypedDict):
 
 
 class PageMotors(TypedDict):
-    """The data of the motor explorer. `pulses`: the pulses of a run; `opening`: the initial choice;
-    `words`: all its sentences; `code`: the corresponding Python lines, with blanks to fill;
-    `meant`: the explanation below the view.
+    """The data of the motor explorer. `pulses` is the number of pulses in a run, `opening` is the
+    initial choice, `words` contains all its sentences, `code` the corresponding Python lines, with
+    blanks to fill, and `meant` the explanation below the view.
     """
 
     kind: str
@@ -202,14 +202,14 @@ class PageMotors(TypedDict):
 
 
 def motor_explorer(motor: Stepper | None = None) -> Explorer:
-    """Show a stepper motor along its shaft: windings coloured by their currents, the field, and a
-    rotor to turn; next to it the phase table with the current row. Pulses come one by one or as a
-    run at a frequency, with a load and a ramp; lost steps are counted and drawn over time. Menus
-    choose rotor, feed, windings and drive.
+    """Show a stepper motor along its shaft: the windings, coloured by their currents, the field,
+    and a rotor that the reader can turn. Next to it is the phase table, in which the current row is
+    marked. Pulses are sent one by one or as a run at a frequency, with a load and a ramp; lost
+    steps are counted and drawn over time. Menus choose rotor, feed, windings and drive.
 
-    It opens with `motor`, by default the motor of the document's table 1, and keeps its torque,
-    inertia, damping and `rise`. TypeError: not a Stepper. ValueError: a motor whose runs take too
-    long to compute.
+    The explorer opens with `motor`, by default the motor of the document's table 1. All motors in
+    it have the torque, inertia, damping and `rise` of `motor`. Raises TypeError if `motor` is not a
+    Stepper, and ValueError if its runs take too long to compute.
     """
     opened = Stepper() if motor is None else instance(motor, Stepper, "motor")
     kind = opened.rotor, opened.motor
@@ -227,7 +227,7 @@ def motor_explorer(motor: Stepper | None = None) -> Explorer:
 
 
 def _page(opened: Stepper, summary: str) -> PageMotors:
-    """The page data of the explorer that opens with this motor."""
+    """Return the page data of the explorer that opens with this motor."""
     own: MotorNumbers = {
         "torque": opened.torque,
         "inertia": opened.inertia,
@@ -321,16 +321,18 @@ def _motor(rotor: str, feed: str, n: int) -> PageMotor:
 
 
 def _heads(rotor: str, feed: str, n: int) -> list[str]:
-    """The column heads of the table: those of the document if it gives them, otherwise letters."""
+    """Return the headings of the table's columns: those of the document if it gives them, otherwise
+    letters.
+    """
     if feed == "bipolar":
         return [f"{end}{k + 1}" for k in range(n) for end in "ab"]
     return ["a1", "b1", "a2", "b2"] if (rotor, n) == ("active", 4) else list("abcdef"[:n])
 
 
 def _poles(rotor: str, feed: str, n: int) -> list[PagePole]:
-    """A magnet in a unipolar motor has one pole for each winding; otherwise opposite poles form a
-    pair. In a bipolar motor they are wound in opposite directions; for a passive rotor the sign
-    does not matter.
+    """Return the poles of the stator. If the rotor is a magnet and the motor is unipolar, there is
+    one pole for each winding; otherwise opposite poles form a pair. In a bipolar motor, the two
+    poles of a pair are wound in opposite directions; for a passive rotor, the sign does not matter.
     """
     pairs = rotor == "passive" or feed == "bipolar"
     count = 2 * n if pairs else n

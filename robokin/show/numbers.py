@@ -14,7 +14,7 @@ from ..motion.recording import Recording
 
 Scale: TypeAlias = tuple[float, float, int, int]  # lowest tick, step, number of ticks, decimals
 
-# bytes for the joint values, speeds and accelerations of all motions (but at least 41 samples)
+# bytes: maximum size of all joint values, speeds and accelerations, unless 41 samples need more
 DATA_BYTES = 570_000
 NOTHING = -32768  # the integer for "no value"
 # added before rounding, so that every processor rounds an exact half in the same way
@@ -22,13 +22,13 @@ TIE = 2e-7 * np.sqrt(2)
 
 
 class Packed(TypedDict):
-    """Numbers (motions, samples, columns) in compact form: 16-bit integers times a step.
+    """Numbers (motions, samples, columns) in compact form: 16-bit integers times a step size.
 
-    steps  for each motion one step for all columns, or a list with one for each column
-    data   in base64: motion after motion, column after column, the second differences of the
-           integers over the samples (as if two zeros preceded the first), each as 2 d or, if d is
-           negative, -2 d - 1, in groups of seven bits, the lowest first; a byte above 127 is not
-           the last of its number. The integer -32768 means "no value here".
+    steps  for each motion, one step size for all columns, or a list with one for each column
+    data   the integers in base64, by motion, column and sample. We store the second differences
+           over the samples (as if two zeros preceded the first sample), each as 2 d or, if d is
+           negative, as -2 d - 1, in groups of seven bits, the lowest group first. A byte above 127
+           means that the number continues. The integer -32768 means "no value here".
     """
 
     steps: list[float | list[float]]
@@ -36,8 +36,8 @@ class Packed(TypedDict):
 
 
 def tidy(x: float, decimals: int) -> float:
-    """Round x; an exact half, even with rounding noise, always rounds up, and there is no negative
-    zero.
+    """Round x. An exact half is always rounded up, even in the presence of rounding errors, and the
+    result is never a negative zero.
     """
     scale = 10.0**decimals
     return float(np.floor(float(x) * scale + 0.5 + TIE) / scale) + 0.0
@@ -49,12 +49,12 @@ def rounded(values: ArrayLike, decimals: int = 9) -> list[float]:
 
 
 def packed(values: Floats, finest: float, groups: Sequence[Bools] = ()) -> Packed:
-    """Return (motions, samples, columns) as `Packed`; the greatest value of each motion is about
-    `finest` steps. The columns of a group share a step; without groups all columns do.
+    """Return numbers (motions, samples, columns) as `Packed`. The greatest value of each motion is
+    about `finest` steps. The columns of a group share a step size; without groups, all columns do.
 
-    Each motion has its own step, since one extreme value would make the other motions coarse. We
-    store second differences, since for 241 samples of a smooth curve nearly all of them fit into
-    one byte.
+    Each motion has its own step size, since one extreme value would make the other motions coarse.
+    We store second differences, since nearly all of them fit into one byte for 241 samples of a
+    smooth curve.
     """
     steps = np.empty((len(values), 1, values.shape[-1]))
     for group in groups or [np.ones(values.shape[-1], dtype=bool)]:
@@ -83,8 +83,8 @@ def _differences(whole: Ints) -> bytes:
 
 
 def series_step(least: float) -> float:
-    """The first number of the series 1, 2, 5, 10, ..., beginning at a millionth, that is not below
-    `least`.
+    """Return the smallest number of the series 1, 2, 5, 10, ... that is not below `least`. The
+    series begins at a millionth.
     """
     least = max(least, 1e-6)
     power = 10.0 ** np.floor(np.log10(least) + 1e-12)
@@ -92,9 +92,9 @@ def series_step(least: float) -> float:
 
 
 def thin(count: int, tracks: Sequence[Recording], wanted: int) -> Ints:
-    """Which of `count` samples the page contains: evenly spread ones, those on both sides of each
-    jump, and those with the greatest speed and acceleration of each motion, so that the curves
-    reach the values in the table.
+    """Return the samples, out of `count`, that the page contains: evenly spread ones, those on both
+    sides of each jump, and those with the greatest speed and acceleration of each motion, so that
+    the curves reach the values in the table.
     """
     values = sum(track.q.shape[0] * track.q.shape[2] for track in tracks)
     wanted = min(count, wanted, max(41, int(DATA_BYTES / (3 * values * 1.1 * 4 / 3))))
@@ -120,8 +120,8 @@ def thin(count: int, tracks: Sequence[Recording], wanted: int) -> Ints:
 
 
 def _peaks(tracks: Sequence[Recording]) -> list[int]:
-    """The samples with the greatest speeds and accelerations of each motion, the greatest of all
-    first.
+    """Return the samples with the greatest speeds and accelerations of each motion, beginning with
+    the greatest of all.
     """
     found: list[tuple[float, int]] = []
     for track in tracks:
@@ -138,8 +138,8 @@ def _peaks(tracks: Sequence[Recording]) -> list[int]:
 
 
 def scales(ranges: Sequence[Any]) -> list[Scale]:
-    """The scale for one range (low, high), or the scales for two ranges in one panel, with zeros
-    and ticks at the same heights.
+    """Return the scale for one range (low, high), or the scales for two ranges in one panel, whose
+    zeros and ticks are at the same heights.
     """
     ranges = [[float(f"{x:.6g}") if abs(x) > 1e-6 else 0.0 for x in ends] for ends in ranges]
     if len(ranges) == 1:
@@ -163,7 +163,7 @@ def scales(ranges: Sequence[Any]) -> list[Scale]:
 
 
 def scale(low: float, high: float) -> Scale:
-    """The scale with Matplotlib's ticks; the outermost ones are at or beyond the data."""
+    """Return the scale with Matplotlib's ticks. The outermost ticks are at or beyond the data."""
     low, high = (float(f"{x:.6g}") if abs(x) > 1e-6 else 0.0 for x in (low, high))
     if high - low < 1e-6 * max(abs(low), abs(high), 1e-3):
         pad = 0.5 * max(abs(low), 1.0)
@@ -183,7 +183,9 @@ def _ticks(low: float, step: float, count: int) -> Scale:
 
 
 def fewest(values: Floats, most: int = 2) -> int:
-    """The smallest number of decimals that represents these values exactly, but at most `most`."""
+    """Return the smallest number of decimals, but at most `most`, that represents these values
+    exactly.
+    """
     return next(
         (
             d
@@ -195,8 +197,8 @@ def fewest(values: Floats, most: int = 2) -> int:
 
 
 def decimals(curves: Iterable[Floats]) -> int:
-    """The number of decimals for one quantity, from one to three: the smaller its greatest value,
-    the more decimals.
+    """Return the number of decimals for one quantity, from one to three: the smaller its greatest
+    value, the more decimals.
     """
     greatest = max(np.nanmax(abs(c), initial=0, where=~np.isnan(c)) for c in curves)
     return 1 if greatest >= 10 else 2 if greatest >= 1 else 3

@@ -1,4 +1,4 @@
-"""A piece of a page with a script: a view that a browser animates."""
+"""A piece of a page that is animated by a script in the browser."""
 
 import hashlib
 import os
@@ -12,13 +12,13 @@ from .saving import save
 
 
 class Output:
-    """A piece of a page that a script in the browser animates. It displays itself in a notebook;
-    `save` writes it as a page.
+    """A piece of a page that is animated by a script in the browser. It displays itself in a
+    notebook; `save` writes it as a page.
 
-    data    the data of the page, ready for JSON
+    data    the data of the page, which JSON can represent
     still   the figure that is shown until the script runs, in print, and in an untrusted
             notebook
-    call    the module in js/ and its function that show the piece
+    call    the module in js/ and its function that shows the piece, such as "player.play"
     """
 
     call = "player.play"
@@ -28,9 +28,9 @@ class Output:
             raise ValueError(f"data: wanted a dict, got {short(data)}")
         self.data, self.still = data, instance(still, plots.Figure, "still")
         self.text = inert(data)
-        # The name is a hash of the data and not of the picture, because another zlib may compress
-        # the same pixels to different bytes. Floats are rounded, because processors differ in the
-        # last bits.
+        # The name is a hash of the data and not of the picture, because another version of zlib may
+        # compress the same pixels to different bytes. Floats are rounded, because their last bits
+        # depend on the processor.
         agreed = re.sub(r"-?\d+\.\d{10,}(e-?\d+)?", lambda x: f"{float(x[0]):.9f}", self.text)
         self.id = hashlib.sha256(agreed.encode()).hexdigest()[:12]
 
@@ -40,13 +40,13 @@ class Output:
         return self._in_page()
 
     def _in_page(self, nonce: str = "") -> str:
-        """The HTML for a page whose policy permits only scripts with this nonce."""
+        """Return the HTML for a page whose security policy permits only scripts with this nonce."""
         still = still_image(plots.palette_png(self.still), self.data["alt"])
         return output(self.call, self.id, self.text, still, nonce)
 
     def save(self, path: str | os.PathLike[str]) -> None:
-        """Write one self-contained page, completely or not at all. ValueError: not a .html file, or
-        an existing file that is not a saved player.
+        """Write one self-contained page, completely or not at all. Raises ValueError if the name
+        does not end in .html, or if the file exists and is not a saved player.
         """
         save(path, self.data["title"], self.html)
 

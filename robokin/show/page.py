@@ -1,5 +1,5 @@
-"""The data of a page. `twin` has the data of an explorer's arm, and `things` the data of other
-things in a scene.
+"""The types of the data in a page. Those of an explorer's arm are in `twin`, and those of the other
+things in a scene are in `things`.
 """
 
 from typing import Any, Literal, NotRequired, TypeAlias, TypedDict
@@ -11,8 +11,8 @@ from .twin import ArmData, PageLink
 # --- Page data ------------------------------------------------------------------------------------
 #
 # Scenes use metres and radians; curves use degrees and the unit of lengths. A rigid transform is 12
-# numbers: the rows of [R | p]. Each motion belongs to one value of the switch and one of the
-# slider; its index is the index of the switch value, times the number of slider values, plus the
+# numbers: the rows of [R | p]. Each motion belongs to one value of the switch and one value of the
+# slider. Its index is the index of the switch value, times the number of slider values, plus the
 # index of the slider value.
 
 
@@ -24,7 +24,7 @@ class Unit(TypedDict):
 
 
 class Slider(TypedDict):
-    """A slider that selects a motion by a number: its values, and how many decimals to show."""
+    """A slider that selects a motion by a number: its values, and the decimals to show."""
 
     label: str
     values: list[float]
@@ -40,10 +40,10 @@ class Switch(TypedDict):
 
 class PageScene(TypedDict):
     """The scene: the arm's length, the coordinate that is zero in a flat scene, the step of the
-    floor's grid, the points that the camera must see, two corners of the floor, azimuth and
-    elevation of the camera. With `grows` the picture zooms out when an arm or a thing leaves it. A
-    `solid` floor hides what is below it. With `bases` all arms are in one picture at these places;
-    with None each has its own picture.
+    floor's grid, the points that must be visible, two corners of the floor, and the azimuth and
+    elevation of the camera. With `grows`, the picture zooms out when an arm or a thing leaves it. A
+    `solid` floor hides what is below it. With `bases`, all arms are in one picture at these places;
+    if it is None, each arm has its own picture.
     """
 
     size: float
@@ -66,9 +66,9 @@ class Axis(TypedDict):
 
 
 class PagePanel(TypedDict):
-    """One panel of curves, with one scale for all motions. `near`: the limits to show for each arm,
-    [joint, 0 lower or 1 upper]. `axes`: the axes of "turn" and "shift" joints, if the arms have
-    any.
+    """One panel of curves, with one scale for all motions. `near` lists the limits to show for each
+    arm, as [joint, 0 for lower or 1 for upper]. `axes` contains the axes of "turn" and "shift"
+    joints, if the arms have any.
     """
 
     label: str
@@ -88,7 +88,7 @@ class PageQuantity(TypedDict):
 
 class Watch(TypedDict):
     """The panel and the joints to watch: the index of the large panel (quantities come after the
-    three panels of joints) and the joints that are not faint, from 0 (None: all of them).
+    three panels of joints) and the joints that are not faint, counted from 0 (None: all joints).
     """
 
     panel: int
@@ -96,8 +96,8 @@ class Watch(TypedDict):
 
 
 class Greatest(TypedDict):
-    """For each motion and joint: the greatest speed, its percentage of the limit, and the greatest
-    acceleration, or a string if the speed jumps.
+    """The greatest speed, its percentage of the limit, and the greatest acceleration, for each
+    motion and joint. The acceleration is a string if the speed jumps.
     """
 
     speed: list[list[float]]
@@ -107,7 +107,7 @@ class Greatest(TypedDict):
 
 class Flaws(TypedDict):
     """The flaws of motions, by the index of the motion: the samples after which the curves break,
-    [[time, label]] for jumps in speed and in position, and sentences about them.
+    [[time, label]] for jumps in speed and in position, and sentences about the flaws.
     """
 
     gaps: dict[str, list[int]]
@@ -117,10 +117,10 @@ class Flaws(TypedDict):
 
 
 class PageArm(Greatest, Flaws):
-    """One arm and its motions: `Packed` joint values, speeds and accelerations; [lower, upper]
-    joint limits; speed limits; for each motion [smallest distance from "via", x, y, z of that
-    place], or None; for each motion of an arm with an inverse [first sample, name] of the rows of
-    `ik` to which its postures belong.
+    """One arm and its motions: joint values, speeds and accelerations as `Packed`; [lower, upper]
+    joint limits; speed limits; for each motion [smallest distance from "via", x, y, z of the
+    nearest place], or None; for each motion of an arm with an inverse [first sample, name] of the
+    rows of `ik` to which its postures belong.
     """
 
     name: str
@@ -133,8 +133,9 @@ class PageArm(Greatest, Flaws):
 
 
 class TimePage(TypedDict):
-    """The data of every view of curves over time. `nothing`: the integer in a `Packed` that means
-    "no value". `ticks` is the scale of the time axis, `dashes` are the dashes of the joints' lines.
+    """The data of every view of curves over time. `nothing` is the integer in a `Packed` that means
+    "no value", `ticks` is the scale of the time axis, and `dashes` are the dash patterns of the
+    joints.
     """
 
     title: str
@@ -147,8 +148,8 @@ class TimePage(TypedDict):
 
 
 class Page(TimePage):
-    """The data of a player. `decimals`: the numbers of decimals for speeds and accelerations.
-    `sampled` says from which samples the greatest values come.
+    """The data of a player. `decimals` contains the number of decimals for speeds and for
+    accelerations. `sampled` says which samples the greatest values come from.
     """
 
     slider: Slider | None
@@ -174,8 +175,9 @@ class CurvePanel(PagePanel):
 
 
 class PageCurves(TimePage):
-    """The joint curves of one motion: `prismatic` for each joint, the samples after which the
-    curves break, and sentences about them, each with True if it reports a violation.
+    """The joint curves of one motion. `prismatic` says whether each joint is prismatic, `gaps`
+    contains the samples after which the curves break, and `notes` are sentences, each with True if
+    it reports a violation.
     """
 
     prismatic: list[bool]
@@ -256,8 +258,8 @@ class BranchTask(TypedDict):
 
 
 class ExplorerPage(TypedDict):
-    """The data of every explorer. `words`: all its sentences; `code`: the corresponding Python
-    lines, with blanks to fill; `meant`: the explanation below the view.
+    """The data of every explorer. `words` contains all its sentences, `code` the corresponding
+    Python lines, with blanks to fill, and `meant` the explanation below the view.
     """
 
     title: str
@@ -280,7 +282,7 @@ class ArmPage(ExplorerPage):
 
 class JointPage(ArmPage):
     """The data of the joint explorer: the posture q, rows of numbers, whether it mentions
-    singularities, and the wrist centre in flange coordinates if it is marked.
+    singularities, and, if it marks the wrist centre, its place in flange coordinates.
     """
 
     kind: Literal["joint"]
@@ -290,18 +292,44 @@ class JointPage(ArmPage):
     wrist: list[float] | None
 
 
+class PageCosts(TypedDict):
+    """The curve of the sum S over the free angle alpha: its title, the text of its axis, and the
+    names of its three terms and the dashes of their lines, or none if only S is drawn.
+    """
+
+    title: str
+    axis: str
+    terms: list[str]
+    dashes: list[list[float]]
+
+
 class LeversPage(ArmPage):
-    """The data of the explorer of three levers: the point `target`, and the previous posture q."""
+    """The data of an explorer of three levers: the previous posture q, the points to reach one
+    after the other, and the curve of the sum of the angle changes.
+    """
 
     kind: Literal["levers"]
     q: list[float]
-    target: PagePose
+    targets: list[PagePose]
+    curve: PageCosts
+
+
+class ElbowPage(ArmPage):
+    """The data of the explorer of an elbow: the point [r, z] in the plane of the arm, the headings
+    of the table, and the names of its rows.
+    """
+
+    kind: Literal["elbow"]
+    point: list[float]
+    heads: list[str]
+    elbows: list[str]
 
 
 class TargetPage(ArmPage):
     """The data of the target explorer: the target, its rotations in radians, the previous posture
-    q, the names of branches, the headings of the table, and the joints whose angles the column
-    "travel" adds up. `task` belongs to an exercise.
+    q, the names of the branches, the headings of the table, and the joints whose angle changes are
+    added up in the column "travel". `watched` lists the joints for which the explorer says how far
+    the one nearest to a limit is from it. `task` belongs to an exercise.
     """
 
     kind: Literal["target"]
@@ -311,12 +339,13 @@ class TargetPage(ArmPage):
     branches: list[str]
     heads: list[str]
     turning: list[int]
+    watched: list[int]
     task: BranchTask | None
 
 
 class MotionPage(ArmPage):
     """The data of the motion explorer: the stations, the initial values, the names of laws,
-    corners, branches and panels, and the number of samples.
+    corners, branches and panels, the number of samples, and whether it shows the corner close up.
     """
 
     kind: Literal["motion"]
@@ -331,6 +360,37 @@ class MotionPage(ArmPage):
     panels: list[str]
     samples: int
     jumps: JumpRules
+    close_up: bool
+
+
+class SingularityPage(ArmPage):
+    """The data of the singularity explorer: the singular pose, two unit vectors (the direction of
+    the line, and that in which it misses the pose), the row of `ik`, and the tool's speed in m/s.
+    """
+
+    kind: Literal["singularity"]
+    pose: PagePose
+    along: list[float]
+    beside: list[float]
+    row: int
+    speed: float
+
+
+class RotationPage(ExplorerPage):
+    """The data of the rotation explorer: two perpendicular unit vectors (the axis, and the one
+    across it towards v), the length of v in metres, the opening angles in radians (of the rotation,
+    and between v and the axis), the names of the rows and the headings of the table, and the number
+    of decimals of lengths.
+    """
+
+    kind: Literal["rotation"]
+    axis: list[float]
+    across: list[float]
+    length: float
+    angles: list[float]
+    rows: list[str]
+    heads: list[str]
+    decimals: int
 
 
 class LivePage(ExplorerPage):
@@ -353,7 +413,7 @@ class PlanPage(LivePage):
 
 class TourPage(LivePage):
     """The data of the explorer of tours: the names of the kinds of tasks and of the tours, the
-    maximum number of points, and places for points that the reader adds.
+    maximum number of points, and the places of points that the reader adds.
     """
 
     kind: Literal["tour"]
@@ -363,7 +423,17 @@ class TourPage(LivePage):
     spare: list[list[float]]
 
 
-PageExplorer: TypeAlias = JointPage | LeversPage | TargetPage | MotionPage | PlanPage | TourPage
+PageExplorer: TypeAlias = (
+    JointPage
+    | LeversPage
+    | ElbowPage
+    | TargetPage
+    | MotionPage
+    | RotationPage
+    | SingularityPage
+    | PlanPage
+    | TourPage
+)
 
 
 class PageAnswer(TypedDict):
@@ -381,9 +451,9 @@ class PageAnswer(TypedDict):
 
 
 class PageQuestion(TypedDict):
-    """The data of a prediction. `unit` and `within` (a fraction) belong to a number to type.
-    `choice`: the choice in the notebook, if any. The view that answers the question is not part of
-    the data: it is HTML of the page.
+    """The data of a prediction. `unit` and `within` (a fraction) are for a number that the reader
+    types. `choice` is the choice in the notebook, if any. The view that answers the question is not
+    part of the data: it is HTML of the page.
     """
 
     name: str

@@ -12,18 +12,19 @@ from .page import Axis, PagePanel, PageQuantity, Unit, Watch
 from .panels import near_limits
 
 # The number of steps in the greatest joint value, speed and acceleration. Joint values have finer
-# steps since they also determine the posture drawn.
+# steps, because the arm is drawn from them, too.
 FINEST = (32000, 16000, 8000)
 
 
 def joint_panel(
     arms: Sequence[Arm], curves: Sequence[Floats], unit: Unit, order: int, watch: Watch
 ) -> PagePanel:
-    """The scales of one panel, for revolute and prismatic joints, and the limits that it shows.
+    """Return the scales of one panel, for revolute and prismatic joints, and the limits that it
+    shows.
 
-    All motions share one scale, and the panel shows the limits that any motion comes near to, so
-    that neither changes while a slider moves. The limits of joints that are not watched are not
-    shown.
+    All motions share one scale, and the panel shows each limit that any motion comes near to, so
+    that the scale and the limits do not change while a slider moves. The limits of joints that are
+    not watched are not shown.
     """
     per = ("", "/s", "/s²")[order]
     # for each arm, the least and greatest values: two arrays (motions, n)
@@ -40,7 +41,7 @@ def joint_panel(
                 float(np.nan_to_num(np.fmax.reduce(np.concatenate(greatest, axis=1), axis=None))),
             )
     axes: dict[str, Axis] = {}
-    seen = {}  # axis -> its lowest and highest tick
+    seen = {}  # the lowest and highest tick of each axis
     for key, chosen in zip(ranges, scales(list(ranges.values())), strict=True):
         axes[key] = {"unit": ("°" if key == "turn" else unit["name"]) + per, "scale": chosen}
         low, step, count, _ = chosen
@@ -66,7 +67,7 @@ def joint_panel(
 
 
 def quantity_panel(name: str, values: Floats, kept: Ints) -> PageQuantity:
-    """The panel of a quantity (arms, motions, samples)."""
+    """Return the panel of a quantity (arms, motions, samples)."""
     finite = values[np.isfinite(values)]
     return {
         "label": name,

@@ -1,18 +1,19 @@
 """All colours of figures and pages, and the styles of the joints.
 
-A page gets the colours as CSS custom properties (`--rk-ink`, ...) of its root elements, in one
-light and one dark set, and the font (`--rk-font`); its scripts read them there. Figures are light.
+The root elements of a page have the colours as CSS custom properties (`--rk-ink`, ...), in one
+light and one dark set, and the font (`--rk-font`); the scripts read them from there. Figures use
+light colours.
 """
 
 from collections.abc import Mapping
 from types import MappingProxyType
 from typing import Any
 
-# Colour and dash of joints 1 to 6; dashes are on/off lengths in line widths. Colours: Okabe and
-# Ito, Color Universal Design, 2008; colour-blind readers can distinguish them, and the dashes
-# remain distinct in grey print. PAGE, below, has the colours of dark pages.
+# Colours and dash patterns of joints 1 to 6; the dashes are on/off lengths in line widths. The
+# colours are from Okabe and Ito, Color Universal Design, 2008. Colour-blind readers can distinguish
+# them, and the dashes remain distinct in grey print. PAGE, below, has the colours of dark pages.
 JOINT_STYLES: tuple[Mapping[str, Any], ...] = tuple(
-    MappingProxyType({"color": color, "dash": dash})  # shared, so read-only
+    MappingProxyType({"color": color, "dash": dash})  # read-only, because it is shared
     for color, dash in (
         ("#0072B2", ()),
         ("#D55E00", (5, 1.8)),
@@ -30,16 +31,17 @@ ALARM, TRACE, PALE = "#B3261E", "#0072B2", "#B3D4E8"  # PALE: a trace in the bac
 INK, SOFT, FAINT, GRID = "#2F3A45", "#87939F", "#C3CAD1", "#DDE2E7"
 REMARK, SCALE = "#5A6672", "#6B7681"
 PANEL_GRID, SHADOW, FOOT = "#E9ECEF", "#EDEFF2", "#D5DAE0"
-PAPER, AREA = "#FFFFFF", "#E3E7EB"  # AREA: the floor, an obstacle, values past a limit
-# What is compared and is not a joint: readable as text on light and dark pages, and unlike the
-# colours of the joints. The areas are for the same things, behind text.
+PAPER, AREA = "#FFFFFF", "#E3E7EB"  # AREA: the floor, an obstacle, values beyond a limit
+# Colours for things that are compared and are not joints. They are readable as text on light and
+# dark pages, and differ from the colours of the joints. The areas are for the same things, behind
+# text.
 FIRST, SECOND, THIRD = "#5B3FB8", "#8A5A00", "#A3127C"
 FIRST_AREA, SECOND_AREA, THIRD_AREA = "#D4C9F2", "#F0DDB6", "#F2D3E8"
 COMPARED = ((FIRST, "-"), (SECOND, "--"), (THIRD, ":"), (INK, "-."))  # with line styles
 TITLE: Mapping[str, Any] = MappingProxyType({"fontweight": "bold", "color": INK})
 
 FONT = "system-ui,-apple-system,'Segoe UI','Liberation Sans',sans-serif"  # the font of pages
-# Colours of pages: name -> (light, dark), six digits each.
+# The colours of pages by name: (light, dark), six digits each.
 PAGE: Mapping[str, tuple[str, str]] = MappingProxyType(
     {
         "paper": ("#FFFFFF", "#1B2026"),  # the background, and the outlines that separate lines
@@ -89,24 +91,25 @@ PAGE: Mapping[str, tuple[str, str]] = MappingProxyType(
 )
 
 
-# How a still picture, drawn on white, is shown in a light and in a dark page. Inverting turns red
-# to cyan, and half a turn of the hue turns it back.
+# How a still picture, which is drawn on white, is shown in a light and in a dark page. Inverting
+# turns red into cyan, and rotating the hue by half a turn turns it back.
 STILL = {
     "still": ("none", "invert(1) hue-rotate(180deg)"),
-    "blend": ("multiply", "screen"),  # so that white is the colour of the page
-    "shade": ("#0005", "#fff5"),  # at an edge beyond which a figure continues
+    "blend": ("multiply", "screen"),  # so that white blends into the page
+    "shade": ("#0005", "#fff5"),  # at an edge where a figure is cut off
 }
 
 
 def css() -> str:
-    """Return the palette and the font as CSS: light by default; dark if JupyterLab or a page
-    exported from it says so, otherwise if the reader's system does; always light in print.
+    """Return the palette and the font as CSS. The colours are dark if JupyterLab, or a page
+    exported from it, says so; if it says nothing, they follow the reader's system. They are light
+    in print.
     """
     return _themes(":is(.robokin-player,.rk)", f"--rk-font:{FONT};", {**PAGE, **STILL})
 
 
 def figure_css() -> str:
-    """Return the colours of a still picture as CSS, by the same rule."""
+    """Return the colours of a still picture as CSS that follows the same rules."""
     return _themes(".robokin-figure", "", {"paper": PAGE["paper"], **STILL})
 
 

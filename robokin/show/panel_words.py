@@ -12,8 +12,8 @@ PER = {"q": "", "v": "/s", "a": "/s²"}
 
 
 def about_limits(recording: Recording, kind: str, joints: Ints, past: Bools) -> list[str]:
-    """Say how many samples of each joint are past a limit. If none is, say so or, for speeds, what
-    percentage of the speed limit is reached.
+    """Say how many samples of each joint exceed a limit. If none does, say so or, for speeds, say
+    what percentage of the speed limit is reached.
     """
     limits = recording.arm.speed_limits
     if past.any():
@@ -102,7 +102,7 @@ def corner_words(
 def range_words(
     recording: Recording, kind: str, name: str, joints: Ints, unit: str, size: float
 ) -> str:
-    """Say which values the curves reach, rounded so that rounding errors do not show."""
+    """Say which range the curves cover, rounded so that rounding errors do not show."""
     gap = space(unit)
     if kind == "q":
         parts = []
@@ -121,7 +121,7 @@ def range_words(
 
 
 def beside_jump(jump: Jump) -> slice:
-    """The samples whose differences, of any order, reach across a jump."""
+    """Return the samples whose differences, of any order, extend across a jump."""
     return slice(max(jump.first - 2, 0), jump.last + 3)
 
 

@@ -1,6 +1,7 @@
-"""Panels of joint curves over time: limits shaded, violations marked and counted, jumps named.
+"""Panels of joint curves over time. Limits are shaded, violations are marked and counted, and jumps
+are named.
 
-`plots.plot_joints` puts them into a figure.
+`joint_plot.plot_joints` puts the panels into a figure.
 """
 
 import textwrap
@@ -40,8 +41,8 @@ class Panel:
     """One panel of a figure.
 
     heading  the text above it, wrapped once its width is known
-    labels   [(text, limit, 1 for above it or -1 for below it)] of the limits that it shows;
-             they are placed later
+    labels   the labels of the limits that it shows, as (text, limit, 1 for above or -1 for below
+             the limit); they are placed later
     facts    its sentences in the alt text
     """
 
@@ -52,8 +53,9 @@ class Panel:
 
 
 def without_spikes(recording: Recording, kind: str, values: Floats) -> Floats:
-    """Return the caller's speeds or accelerations (samples, n) with NaN in place of the spikes that
-    a differentiated jump leaves: values next to a jump that exceed all others by more than half.
+    """Return the caller's speeds or accelerations (samples, n), with NaN in place of the spikes
+    that a differentiated jump leaves. A spike is a value next to a jump that is more than 1.5 times
+    as large as all values elsewhere.
     """
     beside = np.zeros(values.shape, dtype=bool)
     for jump in _jumps(recording, kind):
@@ -91,7 +93,7 @@ def draw_panel(
     ax.grid(color=PANEL_GRID, linewidth=0.8)
     ax.set_axisbelow(True)
     ax.tick_params(labelsize=9, color=SOFT, length=3)
-    alone = drawn.shape[1] == len(joints)  # if False, there are two columns of panels
+    alone = drawn.shape[1] == len(joints)  # otherwise there are two columns of panels
     ax.xaxis.set_major_locator(MaxNLocator(8 if alone else 4, steps=[1, 2, 5, 10]))
     steps = [1, 1.5, 3, 4.5, 9, 10] if unit_text == "°" else [1, 2, 5, 10]
     ax.yaxis.set_major_locator(MaxNLocator(5, steps=steps))
@@ -169,11 +171,11 @@ def near_limits(
     low: Floats | float,
     high: Floats | float,
 ) -> Bools:
-    """Which limits a panel from low to high shows: those in view that their joint exceeds or comes
-    near to, relative to the height of the panel and to the range between the joint's limits.
+    """Return the limits that a panel from low to high shows, as bool (..., 2). A limit is shown if
+    it is in view and its joint exceeds it or comes near to it, compared with the height of the
+    panel and with the range between the joint's limits.
 
-    limits (..., 2), the joint's least and greatest value (...), low and high (...) -> bool (...,
-    2).
+    limits (..., 2); the joint's least and greatest value (...); low and high (...)
     """
     away = np.stack([least - limits[..., 0], limits[..., 1] - greatest], axis=-1)
     low, high = np.expand_dims(low, -1), np.expand_dims(high, -1)
@@ -186,7 +188,9 @@ def near_limits(
 
 
 def _limits(recording: Recording, kind: str, joints: Ints, size: float) -> Floats:
-    """The limits (k, 2) of the quantity in the unit of the panel, infinite if there are none."""
+    """Return the limits (k, 2) of the quantity in the unit of the panel. They are infinite if there
+    are none.
+    """
     arm = recording.arm
     if kind == "q":
         return arm.limits[joints] / size
@@ -197,15 +201,15 @@ def _limits(recording: Recording, kind: str, joints: Ints, size: float) -> Float
 
 
 def _past(recording: Recording, kind: str, joints: Ints) -> Bools:
-    """Which samples are past a limit: (samples, k)."""
+    """Return which samples (samples, k) exceed a limit."""
     if kind == "a":
         return np.zeros((len(recording.t), len(joints)), dtype=bool)
     return (recording.excess if kind == "q" else recording.speed_excess)[:, joints] > 0
 
 
 def _view(values: Floats, kind: str) -> tuple[float, float]:
-    """The lowest and highest value of the panel: the range of the curves and a margin, but never so
-    small that it magnifies the noise of a constant curve.
+    """Return the lowest and highest value of the panel: the range of the curves and a margin. The
+    range is never so small that it magnifies the rounding errors of a constant curve.
     """
     finite = values[np.isfinite(values)]
     low, high = (finite.min(), finite.max()) if len(finite) else (0.0, 0.0)
@@ -221,8 +225,8 @@ def _view(values: Floats, kind: str) -> tuple[float, float]:
 def _band(
     ax: Axes, limits: Floats, values: Floats, joint: int, unit: str, color: str
 ) -> Iterator[tuple[str, float, int]]:
-    """Shade a strip beyond a limit, and yield the labels. It is only a strip because, with six
-    joints in one panel, values beyond one joint's limit are inside another's.
+    """Shade a strip beyond a limit, and yield the labels. It is only a strip, because in a panel
+    with six joints, values beyond the limit of one joint are inside the limits of another.
     """
     low, high = ax.get_ylim()
     near = near_limits(
@@ -237,7 +241,7 @@ def _band(
 
 
 def _jumps(recording: Recording, kind: str) -> list[Jump]:
-    """The jumps across which differences of this kind have no meaning."""
+    """Return the jumps across which differences of this kind have no meaning."""
     return [*recording.leaps, *(recording.jumps if kind == "a" else ())]
 
 
@@ -245,8 +249,8 @@ def _jumps(recording: Recording, kind: str) -> list[Jump]:
 
 
 def _write_limits(panel: Panel) -> None:
-    """Write the text next to each limit line, inside or beyond it, where it covers the curves
-    least.
+    """Write the text of each limit next to its line, inside or beyond the limit, where it covers
+    the curves least.
     """
     ax = panel.ax
     canvas: Any = ax.figure.canvas
@@ -280,19 +284,21 @@ def _write_limits(panel: Panel) -> None:
 
 
 def _ends_in_view(ax: Axes) -> bool:
-    """Whether every curve continues to the right edge, or nearly, and ends within the panel."""
+    """Return whether every curve ends within the panel and at or near its right edge."""
     (low, high), (first, last) = ax.get_ylim(), ax.get_xlim()
     times, ends = _ends(ax)
     return bool(((ends >= low) & (ends <= high) & (times > first + 0.9 * (last - first))).all())
 
 
 def _curves(ax: Axes) -> list[Line2D]:
-    """The lines of the joints, without those of their limits."""
+    """Return the lines of the joints, without those of their limits."""
     return [line for line in ax.lines if str(line.get_label()).startswith("q")]
 
 
 def _ends(ax: Axes) -> tuple[Floats, Floats]:
-    """The time and value of the last sample of each curve that exists; NaN for an empty curve."""
+    """Return the time and value of the last sample of each curve that has any; NaN for an empty
+    curve.
+    """
     curves = [np.asarray(line.get_xydata()) for line in _curves(ax)]
     last = [curve[np.isfinite(curve[:, 1])][-1:] for curve in curves]
     times, values = np.array([end[0] if len(end) else (np.nan, np.nan) for end in last]).T

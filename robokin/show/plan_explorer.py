@@ -1,9 +1,9 @@
 """The explorer of plans: an arm of three levers with a target and an obstacle to drag.
 
 The page draws, and a kernel plans: see `live`. Next to the plane is the cube of all postures. It
-shows the body of forbidden postures, and a breadth-first search past it to the curve of the
-postures that reach the target. The cube has steps of `STEP`, for display only;
-`robokin.jobs.obstacles.plan` searches in finer steps.
+shows the body of forbidden postures, and a breadth-first search that passes this body on its way to
+the curve of the postures that reach the target. The cube has steps of `STEP` and is only for
+display; `robokin.jobs.obstacles.plan` searches in finer steps.
 """
 
 from collections.abc import Mapping
@@ -28,7 +28,7 @@ from .palette import ALARM, INK, JOINT_STYLES, PALE, SOFT
 from .things import Mark
 from .twin import arm_data
 
-STEP = 12 * deg  # step between neighbouring postures of the cube
+STEP = 12 * deg  # the step between neighbouring postures in the cube
 MOMENTS = 41  # number of postures of a motion in the page data
 FORBIDDEN, AWAY = 255, 254  # values of cells: too near the obstacle; free, but not reached
 WAYS = ("the plan", "two via points", "direct")
@@ -61,14 +61,14 @@ def plan_explorer(
     arm: ThreeLeverArm, posture: ArrayLike, target: ArrayLike, obstacle: ArrayLike
 ) -> Live:
     """Show the start K, the target K1 and the obstacle H, which the reader can drag, and the
-    distance that all levers must keep from H (a seventh of a lever at first). A kernel answers
-    every move with the result of `plan`: the path and the reason for it, the area that the
-    levers sweep, and where they come nearest to H; or with the result of a motion through two via
-    points or of the direct motion. The search can be played in the cube of postures, the motion in
-    the plane.
+    distance that all levers must keep from H (a seventh of a lever at first). On every move, a
+    kernel answers with the result of `plan`: the path and the reason for it, the area that the
+    levers sweep, and where they come nearest to H. The reader can also ask for a motion through two
+    via points or for the direct motion. The search can be played in the cube of postures, and the
+    motion in the plane.
 
-    posture (3,) in radians is the start; target and obstacle (2,) are in metres. ValueError:
-    arguments that `plan` refuses. TypeError: an arm without three levers.
+    posture (3,) in radians is the start; target and obstacle (2,) are in metres. Raises ValueError
+    if `plan` refuses the arguments, and TypeError if the arm does not have three levers.
     """
     instance(arm, ThreeLeverArm, "arm")
     distance, H = arm.lever / 7, floats(obstacle, "obstacle")
@@ -107,7 +107,7 @@ def _answer(arm: ThreeLeverArm, question: Question) -> Answer:
     via             (k, 2) the gripper's via points
     nearest         where the levers come nearest to H: [the place on the lever, words]
     direct          the quadrilaterals AK and BA of the direct motion and a sentence about them;
-                    None if they are not asked for, or do not exist
+                    None if the question does not ask for them, or if they do not exist
     cube            the number of search steps to each posture, or FORBIDDEN, or AWAY
     most, curve     the number of search steps to show; the postures (k, 3) that reach the target
     """
@@ -147,7 +147,7 @@ def _moments(path: Floats) -> Floats:
 def _result(
     known: Plan, way: str, path: Floats, lever: int, near: float, distance: float
 ) -> tuple[str, bool]:
-    """The result in one sentence, and whether the distance is kept."""
+    """Return the result in one sentence, and whether the distance is kept."""
     if len(path) == 1:
         out = "K1 is out of reach" if way == "direct" else "K2, K3 and K1 are not all within reach"
         return ("No: the arm does not move." if way == WAYS[0] else f"No: {out}."), False
@@ -181,8 +181,8 @@ def _direct(arm: ThreeLeverArm, start: Floats, target: Floats, H: Floats) -> dic
 def _cube(
     arm: ThreeLeverArm, start: Floats, K1: Floats, H: Floats, distance: float
 ) -> tuple[Any, int, Floats]:
-    """The result of `coarse_search` for the page: the cube (n, n, n), the number of steps in which
-    the search reaches the target's curve (or ends without reaching it), and the curve (k, 3).
+    """Return the result of `coarse_search` for the page: the cube (n, n, n), the number of steps in
+    which the search reaches the target's curve (or ends without reaching it), and the curve (k, 3).
     """
     steps, free, curve = coarse_search(arm, start, K1, H, distance, STEP)
     reached = steps < NEVER
@@ -262,7 +262,7 @@ def _picture(arm: ThreeLeverArm, first: Question, answer: Answer, alt: str) -> p
 
 
 def _body(blocked: Bools) -> tuple[Floats, list[str]]:
-    """The visible faces of the forbidden body, the farther ones first: corners (n, 4, 3) in
+    """Return the visible faces of the forbidden body, the farthest first: corners (n, 4, 3) in
     radians, and their colours.
     """
     (ca, ce), (sa, se) = np.cos(VIEW), np.sin(VIEW)

@@ -2,7 +2,7 @@
 
 `animate` computes everything once, at full resolution, and stores compact numbers in the page:
 joint values, speeds and accelerations of about a hundred samples, and the table of greatest values
-for every slider value. `js/player.js` draws them; `page` describes the data.
+for every slider value. `js/player.js` draws them; the module `page` describes the data.
 """
 
 import os
@@ -73,39 +73,45 @@ def animate(
 
     arm      an Arm, or a list of arms to draw side by side: then q and `names` are lists of the
              same length. Or recordings with the same times, which have their own t and q
-    t, q     full resolution (such as 2001 samples): speeds, accelerations and the numbers below the
-             curves come from all samples, and only what is drawn is thinned. Unwrapped angles
-             (`follow`); a NaN row is "no solution here".
-    targets  Transforms in a list (start and goal; start, via and goal), or a dict of name ->
-             Transform. A target called "via" gets its smallest distance from the path.
+    t, q     the motion at full resolution (such as 2001 samples). Speeds, accelerations and the
+             numbers below the curves come from all samples; the page draws only some of them.
+             Angles are unwrapped (see `follow`); a NaN row means "no solution here"
+    targets  a list of Transforms (start and goal; start, via and goal), or a dict that maps names
+             to Transforms. For a target called "via", the player shows its smallest distance from
+             the path
     slider   (name, values): q is then (values, samples, n), and the page has a slider for the value
     switch   (name, [words]): q has one more leading axis, one motion for each word, and the page
              has a menu
-    points   places to mark: a list or a dict of name -> (x, y, z); circles are the same
-             with (centre, radius), drawn as spheres, or as discs if the arm is planar. All are in
-             metres and base coordinates.
-    floor    the floor is at height 0 and hides what is below it; by default it is below everything
+    points   places to mark: a list of (x, y, z), or a dict that maps names to them, in metres and
+             base coordinates
+    circles  the same with (centre, radius), drawn as spheres, or as discs if the arm is planar
+    floor    if True, the floor is at height 0 and hides what is below it; otherwise it is below
+             everything
     bases    the places of several arms in one picture: (arms, 2), x and y in m; targets,
              points, circles and faces are then in coordinates of the floor. Named points
              can label the arms
     faces    polygons to draw behind the arms, such as a conveyor belt: corners (k, 3), m
-    readings changing numbers to write after the names of points: a dict of name -> (samples,),
-             or with the leading axes of q; each number stays until the next sample
+    readings changing numbers to write after the names of points: a dict that maps names to arrays
+             (samples,) or arrays with the leading axes of q; each number stays until the next
+             sample
     things   anything else to draw, of the kinds in `robokin.show.things` or of your own kinds
-    watch    the panel that is large: "q", "v", "a", or the name of a quantity; None: the first
-             quantity or, without one, q. The reader can choose another one
-    joints   the joints to watch, counted from one; others have faint curves. None: all joints
-    quantities  numbers with a panel of their own, such as a distance: a dict "name, unit" ->
-             (samples,), or with the leading axes of q; for several arms a list with one for each
+    watch    the large panel: "q", "v", "a", or the name of a quantity; None: the first quantity or,
+             if there is none, q. The reader can choose another panel
+    joints   the joints to watch, counted from one; the curves of other joints are faint. None: all
+             joints
+    quantities  numbers with a panel of their own, such as a distance: a dict that maps "name, unit"
+             to an array (samples,) or an array with the leading axes of q; for several arms, to a
+             list with one array for each
 
-    Points, centres of circles and targets may move: a place is then (samples, 3), or with the
-    leading axes of q (..., samples, 3) or, if it depends on slider and switch only, (..., 1, 3); a
-    target is a Transform with one of these shapes without the 3. NaN means that it is missing. No
-    distance from "via" is shown if it moves with time, or with `bases`. Several arms side by side
-    share targets, points, circles and faces.
+    Points, centres of circles and targets may move. The place of a point or centre then has the
+    shape (samples, 3) or, with the leading axes of q, (..., samples, 3). If the place depends only
+    on slider and switch, its shape is (..., 1, 3). A moving target is a Transform with one of these
+    shapes without the 3. NaN means that the thing is missing. The distance from "via" is not shown
+    if "via" moves with time, or with `bases`. Several arms side by side share targets, points,
+    circles and faces.
 
-    ValueError: shapes that do not match, fewer than three samples, times that do not increase,
-    infinite numbers. TypeError: an arm or a target of another type.
+    Raises ValueError if shapes do not match, there are fewer than three samples, the times do not
+    increase, or a number is infinite. Raises TypeError if an arm or a target is of another type.
     """
     sliding, switching = arguments.slider(slider), arguments.switch(switch)
     lead = tuple(len(control["values"]) for control in (switching, sliding) if control)
@@ -138,8 +144,8 @@ class Player(Output):
     def save(self, path: str | os.PathLike[str]) -> None:
         """Write one self-contained page (.html), or the scene without the curves as an animated
         picture (.gif: 640 pixels, at most 12 frames per second and 120 frames, with the first value
-        of a slider or menu). ValueError: a name with another ending, an existing file that is not a
-        saved player, or a picture of more than 3 MB.
+        of a slider or menu). Raises ValueError if the name has another extension, if the file
+        exists and is not a saved player, or if the picture is larger than 3 MB.
         """
         name = os.fspath(path) if isinstance(path, (str, os.PathLike)) else ""
         if isinstance(name, str) and os.path.splitext(name)[1] == ".gif":

@@ -42,9 +42,9 @@ __all__ = [
 ]
 
 DPI = 100
-SMALLEST = 10 * 72 / DPI  # points: text of 10 pixels, which stays readable
+SMALLEST = 10 * 72 / DPI  # points: text of 10 pixels, which is still readable
 INCHES = "a positive number of inches"
-STYLE: dict[Any, Any] = {  # of a plot, beside its title
+STYLE: dict[Any, Any] = {  # the style of a plot, apart from its title
     "axes.prop_cycle": cycler(color=[color for color, _ in COMPARED]),
     "axes.edgecolor": SOFT,
     "axes.labelcolor": INK,
@@ -56,11 +56,11 @@ STYLE: dict[Any, Any] = {  # of a plot, beside its title
 
 
 class Plot(Axes):
-    """A plot with its title at the left, in the style of all titles."""
+    """A plot with a left-aligned title, in the style of all titles."""
 
     def set_title(self, label: str, *args: Any, **keywords: Any) -> Text:
-        """Write the title, in as many lines as it needs; it is smaller above one of several plots
-        in a row.
+        """Write the title, in as many lines as it needs. The font is smaller if there are several
+        plots in a row.
         """
         place, whole = self.get_subplotspec(), self.get_figure(root=True)
         columns = place.get_gridspec().ncols if place else 1
@@ -74,13 +74,13 @@ class Plot(Axes):
 
 
 def wrapped(words: str, width: float, size: float) -> str:
-    """The words in lines that fit into a width in inches, as a title of this size in points."""
+    """Break words into lines that fit into a width in inches, as a title of a size in points."""
     most = max(int(width * 9.5 * 12 / size), 1)
     return "\n".join(textwrap.fill(line, most) for line in words.split("\n"))
 
 
 class Figure(MatplotlibFigure):
-    """A Matplotlib figure with alt text that displays itself in a notebook."""
+    """A Matplotlib figure that has alt text and displays itself in a notebook."""
 
     def __init__(self, alt: str, **keywords: Any) -> None:
         super().__init__(dpi=DPI, facecolor=PAPER, **keywords)
@@ -88,12 +88,14 @@ class Figure(MatplotlibFigure):
         self.alt = alt
 
     def add_subplot(self, *place: Any, **keywords: Any) -> Any:
-        """Return a new plot in the style of all figures. `subplots` makes its plots here, too."""
+        """Return a new plot in the style of all figures. `subplots` also makes its plots with this
+        method.
+        """
         if "projection" not in keywords:
             keywords = {"axes_class": Plot} | keywords
         with matplotlib.rc_context(STYLE):
             plot = super().add_subplot(*place, **keywords)
-        plot.set_anchor("W")  # one with true proportions is at the left, below its title
+        plot.set_anchor("W")  # a plot with true proportions is at the left, below its title
         return plot
 
     def suptitle(self, t: str, **keywords: Any) -> Text:
@@ -126,8 +128,8 @@ def figure(alt: str, width: float = 9, height: float = 4) -> Figure:
     and end the cell with `fig`.
 
     `alt` says in words what a sighted reader concludes. It is the alternative text of the image,
-    which tests compare. ValueError: an `alt` without words, or a size that is not positive or is
-    above 100.
+    which tests compare. Raises ValueError if `alt` contains no words, or if a size is not positive
+    or is above 100.
     """
     if not (isinstance(alt, str) and alt.strip()):
         raise ValueError(f"alt: wanted text that says what the figure shows, got {short(alt)}")
@@ -138,7 +140,7 @@ def figure(alt: str, width: float = 9, height: float = 4) -> Figure:
 
 
 def palette_png(fig: MatplotlibFigure) -> bytes:
-    """Return the figure as a PNG with a palette, which is a third of the size of a plain one.
+    """Return the figure as a PNG with a palette, which is a third of the size of a PNG without one.
 
     Pillow's octree keeps the colours of thin lines to within 1/100; its median cut turns the green
     of a triad blue.
@@ -163,12 +165,12 @@ def plot_postures(
 ) -> Figure:
     """Plot postures along one path, in a spatial view with true proportions.
 
-    q        (samples, n): the whole path, as finely as it is known. The tool's path is drawn
-             through all samples, the first and last posture boldly and up to seven between them
-             faintly. NaN rows are left out. If the flange does not move (as in the rows of `ik`),
-             up to nine postures are drawn in the same style.
-    targets  list of Transforms (one: target; two: start, goal; three: start, via, goal) or dict of
-             name -> Transform
+    q        (samples, n): the whole path, in as many samples as are known. The tool's path is drawn
+             through all samples, the first and last posture boldly, and up to seven postures
+             between them faintly. NaN rows are left out. If the flange does not move (as in the
+             rows of `ik`), up to nine postures are drawn in the same style.
+    targets  a list of Transforms (one: target; two: start, goal; three: start, via, goal), or a
+             dict that maps names to Transforms
     alt      the alternative text, if the numbers alone do not say enough
     """
     q, targets = samples(arm, q), named_targets(targets)
@@ -219,8 +221,8 @@ def plot_frames(
     frames  Transform of shape (k,) or (), or a list of single Transforms, in base coordinates; NaN
             frames are left out
     names   one for each frame; a frame at the base replaces the triad of the base
-    size    length of the axes in metres; chosen from the distances if not given
-    chain   join the origins in order, starting at the base, like the links of an arm
+    size    the length of the axes in metres; by default, it depends on the distances
+    chain   whether to join the origins in order, starting at the base, like the links of an arm
     """
     frames = _frames(frames)
     title, alt = if_given(title, "title"), if_given(alt, "alt")
@@ -257,7 +259,7 @@ def plot_frames(
 
 
 def _canvas(fig: Figure, title: str | None) -> Axes:
-    """Return axes over the whole figure, below the title."""
+    """Return axes that fill the figure below the title."""
     fig.set_size_inches(9, 6)
     if title:
         fig.suptitle(title, y=0.985, parse_math=False)
@@ -280,8 +282,9 @@ def _frames(frames: Transform | Iterable[Transform]) -> list[Transform]:
 
 
 def _naming_axis(frames: Sequence[Transform], i: int) -> int | None:
-    """The axis (0, 1, 2) at whose tip the name of frame i is written, or None for its origin. The
-    names of frames with a common origin are at the tips of the axis whose tips are farthest apart.
+    """Return the axis (0, 1, 2) at whose tip the name of frame i is written, or None for its
+    origin. If frames have a common origin, their names are at the tips of the axis whose tips are
+    farthest apart.
     """
     here = [
         f for f in frames if np.allclose(f.translation, frames[i].translation, rtol=0, atol=1e-6)
@@ -313,7 +316,7 @@ def _postures_alt(
 
 
 def _moves(tool: Transform) -> bool:
-    """Whether the poses (k,) differ."""
+    """Return whether the poses (k,) differ."""
     return bool(abs(tool.as_matrix() - tool[0].as_matrix()).max() > 1e-6)
 
 

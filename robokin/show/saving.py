@@ -12,8 +12,8 @@ MARK = "<!-- robokin player -->"  # marks a file as written by robokin
 
 
 def save(path: str | os.PathLike[str], title: str, body: str) -> None:
-    """Write one self-contained page, completely or not at all. ValueError: not a .html file, or an
-    existing file that is not a saved player.
+    """Write one self-contained page, completely or not at all. Raises ValueError if the name does
+    not end in .html, or if the file exists and is not a saved player.
     """
     head = (
         '<!DOCTYPE html>\n<html lang="en">\n<meta charset="utf-8">\n'
@@ -28,16 +28,17 @@ def save(path: str | os.PathLike[str], title: str, body: str) -> None:
 
 
 def write_page(path: str | os.PathLike[str], page: str) -> None:
-    """Write a complete page, which begins with its doctype, completely or not at all. ValueError:
-    not a .html file, or an existing file that robokin did not write.
+    """Write a complete page, which begins with its doctype, completely or not at all. Raises
+    ValueError if the name does not end in .html, or if the file exists and robokin did not write
+    it.
     """
     doctype, _, rest = page.partition("\n")
     write(path, ".html", lambda: f"{doctype}\n{MARK}\n{rest}".encode())
 
 
 def write(path: str | os.PathLike[str], ending: str, content: Callable[[], bytes]) -> None:
-    """Write a file that has MARK near its beginning, completely or not at all. ValueError: the name
-    does not end in `ending`, or the file exists and robokin did not write it.
+    """Write a file that has MARK near its beginning, completely or not at all. Raises ValueError if
+    the name does not end in `ending`, or if the file exists and robokin did not write it.
     """
     name = _file(path, ending)
     if os.path.lexists(name) and not _ours(name):
@@ -48,8 +49,8 @@ def write(path: str | os.PathLike[str], ending: str, content: Callable[[], bytes
 
 
 def _file(path: Any, ending: str) -> str:
-    """Return `path` as a string. ValueError: it does not end in `ending`, or its folder does not
-    exist.
+    """Return `path` as a string. Raises ValueError if it does not end in `ending`, or if its folder
+    does not exist.
     """
     name = os.fspath(path) if isinstance(path, (str, os.PathLike)) else None
     if not isinstance(name, str) or os.path.splitext(name)[1] != ending or "\0" in name:
@@ -61,7 +62,7 @@ def _file(path: Any, ending: str) -> str:
 
 
 def _ours(name: str) -> bool:
-    """Whether the file is a saved player and not a link to one."""
+    """Return whether the file is a saved player and not a link to one."""
     if os.path.islink(name) or not os.path.isfile(name):
         return False
     with open(name, "rb") as file:
@@ -69,7 +70,7 @@ def _ours(name: str) -> bool:
 
 
 def _write(name: str, content: bytes) -> None:
-    """Write to a temporary file first, so that the file is never half written."""
+    """Write to a temporary file first, so that the file is never incomplete."""
     beside = os.path.join(os.path.dirname(name), f".{os.urandom(8).hex()}.part")
     try:
         with open(beside, "xb") as file:

@@ -1,6 +1,6 @@
-"""A spatial view with true proportions: arms, frames, paths, a floor with its scale.
+"""A spatial view with true proportions: arms, frames, paths, and a floor with its scale.
 
-`plots` uses it for postures and frames, `player` for its still picture.
+`plots` uses it for postures and frames, and `player` for its still picture.
 """
 
 from collections.abc import Mapping, Sequence
@@ -42,10 +42,10 @@ class Scene:
 
     size  metres; the size of the subject, which scales triads and the base
     flat  whether to look straight down
-    like  optional, the scene of a player's page (`camera.scene_data`): the same view, floor and
-          scale
+    like  optional: the scene of a player's page (`camera.scene_data`), whose view, floor and scale
+          are used
     Matplotlib's own 3-D axes leave wide margins, cut off whatever extends beyond them, and do not
-    keep equal scales by themselves; a parallel projection is one matrix product, and
+    keep equal scales by themselves. A parallel projection is one matrix product, and
     `set_aspect("equal")` keeps the proportions.
     """
 
@@ -75,7 +75,7 @@ class Scene:
         ax.set_aspect("equal")
 
     def project(self, points: ArrayLike) -> Floats:
-        """Project points (..., 3): (..., 2), in metres."""
+        """Project points (..., 3) to picture coordinates (..., 2) in metres."""
         return project(points, self.view)
 
     def line(self, points: Any, corner: bool = True, **style: Any) -> Line2D:
@@ -142,7 +142,7 @@ class Scene:
         self.drawn.append((self.project(ring), 1))
 
     def trace(self, points: Floats) -> None:
-        """Draw the path of the tool: points (samples, 3); NaN is a gap."""
+        """Draw the path of the tool: points (samples, 3); NaN leaves a gap."""
         self.line(points, color=TRACE, linewidth=1.6, zorder=layers.PATH)
 
     def drop(self, point: Floats) -> None:
@@ -167,7 +167,7 @@ class Scene:
         at: int | None = None,
     ) -> None:
         """Draw the axes of one pose: x red, y green, z blue. `letters` names the axes at their
-        tips; the pose's name is at its origin, or at the tip of axis `at` (0, 1, 2).
+        tips. The pose's name is at its origin, or at the tip of axis `at` (0, 1, 2).
         """
         if not np.isfinite(pose.translation).all():
             return
@@ -215,17 +215,15 @@ class Scene:
                 zorder=layers.POINTS,
             )
 
-    def faces(self, polygons: Sequence[Floats]) -> None:
-        """Draw polygons (k, 3) behind the arms, the farther ones first."""
+    def faces(self, polygons: Sequence[Floats], **style: Any) -> None:
+        """Draw polygons (k, 3) behind the arms, the farthest first."""
+        style = {"facecolor": FOOT, "edgecolor": SOFT, "lw": 0.8, "zorder": layers.FACES, **style}
         (ca, ce), (sa, se) = np.cos(self.view), np.sin(self.view)
         for corners in sorted(
             polygons, key=lambda face: face.mean(axis=0) @ [ce * ca, ce * sa, se]
         ):
             self.corners.append(corners)
-            flat = self.project(corners)
-            self.ax.add_patch(
-                Polygon(flat, facecolor=FOOT, edgecolor=SOFT, lw=0.8, zorder=layers.FACES)
-            )
+            self.ax.add_patch(Polygon(self.project(corners), **style))
 
     def label(self, words: str, point: Floats, color: str = INK, size: float = 9.5) -> None:
         """Add text next to a point (3,); `place_labels` finds a free place for it."""
@@ -237,8 +235,8 @@ class Scene:
             self.labels.append((words, where, color, size))
 
     def finish(self, footnote: str = "", fit: tuple[float, float] | None = None) -> None:
-        """Draw floor, scale and labels, and set the limits. With `fit` (width, height) in inches
-        the figure shrinks to its content.
+        """Draw floor, scale and labels, and set the limits. With `fit`, a (width, height) in
+        inches, the figure shrinks to its content.
         """
         low, high, step = self._floor()
         name, unit = length_unit(self.size)
@@ -270,8 +268,8 @@ class Scene:
 
     def place_labels(self) -> None:
         """Put each label that has no place yet at the free place nearest to its point: away from
-        lines and other labels, inside the picture. `finish` calls it, and a film calls it for each
-        frame.
+        lines and other labels, and inside the picture. `finish` calls this method; a film calls it
+        for each frame.
         """
         new = self.labels[len(self.boxes) :]
         if not new:
@@ -342,8 +340,8 @@ class Scene:
         self.ax.set_ylim(y0 - spare / 2 - below / scale, y1 + spare / 2 + above / scale)
 
     def _floor(self) -> tuple[Floats, Floats, float]:
-        """Two opposite corners (2,) of the floor, which is under everything drawn and a whole
-        number of steps wide, and the step of its grid.
+        """Return two opposite corners (2,) of the floor, and the step of its grid. The floor is
+        below everything drawn and a whole number of steps wide.
         """
         if "floor" in self.like:
             return *np.array(self.like["floor"])[:, self.across], self.like["grid"]
@@ -408,15 +406,17 @@ class Scene:
                     self.ax.text(x, y, f" {words} ", fontsize=8, color=SCALE, ha=ha, va=va)
 
     def _at(self, x: float, y: float) -> Floats:
-        """The point (3,) of the floor with these two coordinates."""
+        """Return the point (3,) of the floor with these two coordinates."""
         point = np.array([0.0, 0.0, self.ground])
         point[self.across] = x, y
         return point
 
 
 def number(value: float, digits: int = 3) -> str:
-    """Format a number for readers: significant digits, a real minus sign, no negative zero."""
-    value = round(float(value), 9)  # so that rounding noise cannot decide a tie
+    """Format a number for readers, with `digits` significant digits, a real minus sign and no
+    negative zero.
+    """
+    value = round(float(value), 9)  # so that rounding errors cannot decide a tie
     text = f"{value:.{digits}g}"
     if "e+" in text:
         text = f"{value:.0f}"
@@ -424,7 +424,7 @@ def number(value: float, digits: int = 3) -> str:
 
 
 def dense(line: Floats, step: float = 4) -> Floats:
-    """Points along a polyline (k, 2), every `step` pixels, except far outside any picture."""
+    """Return points along a polyline (k, 2) every `step` pixels, except far outside a picture."""
     line = np.clip(line[np.all(np.isfinite(line), axis=-1)], -FAR, FAR)
     if not len(line):
         return line

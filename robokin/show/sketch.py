@@ -1,4 +1,4 @@
-"""Labelled sketches of a plane, such as a lecturer draws: links, angles, lengths, points.
+"""Labelled sketches of a plane, as a lecturer would draw them: links, angles, lengths, points.
 
 sketch = Sketch("Two levers and the angle between them.", title="q2 bends the elbow")
 sketch.levers([(0, 0), (0.3, 0.2), (0.5, 0.1)], ["O", "A", "K"])
@@ -18,7 +18,7 @@ from .palette import INK, JOINT_STYLES, PAPER, REMARK
 from .plots import Figure, figure
 
 UNITS = {"mm": mm, "m": 1.0}
-NAMED = 11  # typographic points between a joint and its name
+NAMED = 11  # the distance between a joint and its name, in typographic points
 
 
 class Sketch(Figure):
@@ -70,7 +70,7 @@ class Sketch(Figure):
             self._text(corner, name, corner - middle)
 
     def point(self, place: ArrayLike, name: str = "", *, away: ArrayLike = (0, -1)) -> None:
-        """Draw a point with its name on the side `away`."""
+        """Draw a point, with its name on the side `away`."""
         [at] = self._at(place, "place", 1)
         self.ax.plot(*at, "o", color=INK, ms=6, zorder=3)
         self._text(at, name, self._at(away, "away", 1)[0])
@@ -78,8 +78,8 @@ class Sketch(Figure):
     def length(
         self, start: ArrayLike, end: ArrayLike, name: str = "", *, right: bool = False
     ) -> None:
-        """Draw a thin line between two points with its name at the middle: to its left, seen from
-        `start`, or with `right` to its right.
+        """Draw a thin line between two points, with its name at the middle. Seen from `start`, the
+        name is to the left of the line or, with `right`, to its right.
         """
         [a], [b] = self._at(start, "start", 1), self._at(end, "end", 1)
         self.ax.plot(*np.transpose([a, b]), color=REMARK, lw=1.1, ls="--", zorder=1)
@@ -88,8 +88,9 @@ class Sketch(Figure):
     def angle(
         self, centre: ArrayLike, start: float, end: float, name: str = "", *, radius: float = 0.05
     ) -> None:
-        """Draw an arc around a point from the direction `start` to `end`, with an arrow at its end
-        and its name outside the middle of the arc. A thin line shows the direction of its start.
+        """Draw an arc around a point from the direction `start` to `end`, with an arrow at its end.
+        The name is outside the middle of the arc. A thin line shows the direction of the arc's
+        start.
         """
         first, last = floats([start, end], "start and end", 2)
         [at] = self._at(centre, "centre", 1)

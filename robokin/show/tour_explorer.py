@@ -1,8 +1,8 @@
 """The explorer of tours: points, start and links that the reader can change; Python computes the
 greedy tour and the best one.
 
-The page draws, and asks a kernel whenever something moves (see `live`). Points are numbered as in a
-`Task`, from 0. All the text of the page is in this module.
+The page draws, and asks a kernel whenever something moves (see `live`). As in a `Task`, points are
+numbered from 0. All the text of the page is in this module.
 """
 
 import re
@@ -69,10 +69,10 @@ def tour_explorer(task: Task) -> Live:
     """Show the start and the points of a task, which the reader can drag, with sliders for the
     links and the time and a menu for visit or collect. The page draws the greedy tour (`visit`,
     `collect`) and the best one (`best_visit`) as paths of the tool, says what the greedy tour
-    loses, and has a clock that moves the arm along either.
+    loses, and has a clock that moves the arm along either tour.
 
-    It asks the kernel: see `live`. The clock also runs without a kernel. TypeError: not a Task.
-    ValueError: more than MOST points.
+    The explorer asks the kernel (see `live`); its clock also runs without a kernel. Raises
+    TypeError if `task` is not a Task, and ValueError if it has more than MOST points.
     """
     count = len(instance(task, Task, "task").points)
     if count > MOST:
@@ -122,17 +122,18 @@ def tour_explorer(task: Task) -> Live:
 
 
 def answered(question: Question, speeds: Floats) -> Answer:
-    """The answer for a task that the reader has set up; points out of reach are left out.
+    """Return the answer for a task that the reader has set up. Points out of reach are left out.
 
     question      l1, l2, T, kind, p0, points as in a `Task`; held: whether the reader is dragging
     speeds        (3,) greatest joint speeds, rad/s
 
     chain         the links of the arm, for the page's `frames`
-    reached       whether each point is in the workspace; `start`: whether p0 is
+    reached       whether each point is in the workspace
+    start         whether p0 is in the workspace
     greedy, best  each tour: t (k,) and q (k, 3) at every stop, `order` and `times` of the points
                   served, `cells` of the table; None if there is no tour, or none yet
-    says          what the greedy tour loses; `notes`: the points out of reach, and where the tool
-                  dips below the floor
+    says          what the greedy tour loses
+    notes         the points out of reach, and where the tool dips below the floor
     """
     l1, l2 = question["l1"], question["l2"]
     points = np.array(question["points"], dtype=float).reshape(-1, 3)
@@ -241,8 +242,8 @@ def _number(x: float, form: str) -> str:
 
 
 def _scene(arm: Arm, task: Task) -> PageScene:
-    """A scene with room for the points and their surroundings, seen from their side; the picture
-    zooms out for anything outside.
+    """Return a scene with room for the points and their surroundings, seen from their side. The
+    picture zooms out for anything outside.
     """
     places = np.vstack([task.p0, task.points])
     ring = np.arange(0, 360, 30) * deg
@@ -256,8 +257,8 @@ def _scene(arm: Arm, task: Task) -> PageScene:
 
 
 def _spare(task: Task) -> Floats:
-    """Places (MOST, 3) for added points: all around the arm, each rotated by the golden angle from
-    the one before.
+    """Return places (MOST, 3) for added points: all around the arm, each rotated by the golden
+    angle from the previous one.
     """
     turn = np.arange(MOST) * np.pi * (3 - 5**0.5)
     rise = np.linspace(5, 55, MOST) * deg

@@ -1,8 +1,8 @@
-"""The twin: the data that Python passes to the page's own kinematics, the scripts in `js/`.
+"""The data that Python passes to the page's own kinematics, which are the scripts in `js/`.
 
 A page without a kernel computes in JavaScript, with the same formulas in the same order. The
-scripts contain no arm and no sentence: both come from here as data, with every number in full
-precision (a rounded one would describe another machine).
+scripts contain no arms and no sentences: both come from here as data. Every number has full
+precision, since a rounded number would describe another machine.
 """
 
 from collections.abc import Sequence
@@ -89,7 +89,7 @@ class ElbowTurns(TypedDict):
 
 
 class WristTurns(ElbowTurns):
-    """`ElbowTurns`, and the same for the angle of axis 4."""
+    """`ElbowTurns`, and cosine and sine of the constant angle of axis 4."""
 
     axis4: tuple[float, float]
 
@@ -194,12 +194,12 @@ class ArmData(TypedDict):
 
 
 def arm_data(arm: Arm) -> ArmData:
-    """Return the data of an arm for the scripts in `js/`, ready for JSON.
+    """Return the data of an arm for the scripts in `js/`, which JSON can represent.
 
     name, reach   as in Python
     target        "Transform", "ScaraPose" or "point"; None for another type
     chain         see `chain`
-    limits        n pairs in rad (m if prismatic); limits_in_words, the same as text
+    limits        n pairs in rad (m if prismatic); limits_in_words contains them as text
     prismatic     n booleans
     units         the unit of each joint in a sentence: name, and size in rad or m
     speed_limits  n speeds, or None
@@ -252,11 +252,12 @@ def chain(links: Sequence[Link]) -> list[PageLink]:
 
 
 def inverse_data(arm: Arm) -> Inverse:
-    """Return the numbers of an arm's inverse: `kind`, the name of the geometry in geometries.js
-    (None if it is not there), and the fields of the geometry by their names.
+    """Return the numbers of an arm's inverse: `kind`, which is the name of the geometry in
+    geometries.js (None if it is not there), and the fields of the geometry by their names.
 
-    turns  cosine and sine of the constant angles that the inverse adds to a direction: they
-           decide which rows exist, and two languages may disagree on the last bit of a cosine
+    turns  cosine and sine of the constant angles that the inverse adds to a direction. They are
+           stored because they decide which rows exist, and the last bit of a cosine may differ
+           between two languages
     """
     solid = arm.geometry
     kind = KINDS.get(type(solid))

@@ -1,4 +1,4 @@
-"""How long the scripts of an exported lab block a slow phone when its page opens.
+"""Measure how long the scripts of an exported lab block a slow phone when its page opens.
 
     python tests/benchmarks/bench_blocking.py [notebooks/03_irb140_motion.ipynb ...]
 

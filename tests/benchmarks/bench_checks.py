@@ -3,8 +3,8 @@
     python tests/benchmarks/bench_checks.py            the solution and every listed wrong answer
     python tests/benchmarks/bench_checks.py 1000       also 1000 variants of every design task
 
-Aims: a median below 0.3 s, none above 2 s; an endless loop reported within 5 s; every variant
-solved by the method of the solution.
+Aims: a median below 0.3 s and no time above 2 s; an endless loop is reported within 5 s; the method
+of the solution solves every variant.
 """
 
 import contextlib
@@ -47,7 +47,7 @@ def answers(name, exercise):
 
 
 def calls():
-    """Exercise -> the name that its lab passes to `check` as the answer."""
+    """A dict that maps each exercise to the name that its lab passes to `check` as the answer."""
     found = {}
     for path in (Path(__file__).parents[2] / "notebooks").glob("*.ipynb"):
         code = "\n".join("".join(c["source"]) for c in json.loads(path.read_text())["cells"])

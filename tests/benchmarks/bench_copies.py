@@ -72,7 +72,7 @@ def times(labs, folder):
 
 
 def whole(folder):
-    """Assert that every visible notebook is valid."""
+    """Assert that every notebook in the student's folder is valid."""
     for path in folder.rglob("*.ipynb"):
         if ".robokin" not in path.parts:
             nbformat.validate(nbformat.read(path, as_version=4))
@@ -150,7 +150,7 @@ def saves(labs, folder, count):
         span = time.perf_counter() - start
         saving.join()
         last = folder / f"{SAVED}.last"
-        if last.exists():  # the saving process found the lab when it started
+        if last.exists():  # the saving process has saved a lab
             seen = [p.read_bytes() for p in folder.glob("*.ipynb")]
             assert last.read_bytes() in seen, "the last save is lost"
             moved += (folder / SAVED).read_bytes() != last.read_bytes()

@@ -1,15 +1,15 @@
-"""Compare the speed of this edition with that of the first one.
+"""Compare the speed of this version with that of the first one.
 
     python tests/benchmarks/bench_editions.py --rounds 5          all, about five minutes
     python tests/benchmarks/bench_editions.py ik fk --rounds 9    cases whose names contain a word
     python tests/benchmarks/bench_editions.py --old v1.0          compared with another commit
 
-The first edition is commit 2461cda, unpacked into a temporary folder. Each edition runs in its own
+The first version is commit 2461cda, unpacked into a temporary folder. Each version runs in its own
 process, which measures calls on one thread, in processor time; the two take turns, so that a busy
 machine slows both equally. The script prints medians over the rounds; where their ratio and the
 ratio of the fastest rounds differ by more than 10 %, it prints both, and the latter counts.
 
-Aims: nothing above 1.10 times the first edition's time, inverse kinematics 1.05 times; `import
+Aims: at most 1.10 times the first version's time, and 1.05 times for inverse kinematics; `import
 robokin` at most 1.15 times `import numpy` (the fastest of 20 new processes each). A star marks
 results above the aim. Nothing is asserted: look at the stars, and run those cases again alone.
 """
@@ -24,7 +24,7 @@ import tarfile
 import tempfile
 from functools import partial
 from pathlib import Path
-from time import process_time  # CPU time of this process, whatever else runs
+from time import process_time  # CPU time of this process alone
 
 for _library in ("OMP", "OPENBLAS", "MKL"):  # before NumPy starts its threads
     os.environ[f"{_library}_NUM_THREADS"] = "1"
@@ -41,16 +41,16 @@ BATCHES = 3  # measurements, of which the fastest counts
 MANY, SAMPLES = 10_000, 2001
 
 
-# ---- The process of one edition
+# ---- The process of one version
 
 
 def serve():
-    """Measure on request: read a line "name count", print the seconds of one call."""
+    """Measure on request: read a line "name count", and print the seconds that one call takes."""
     found = {}
     for part in (kinematics, motions, jobs, figures):
         try:
             found |= part()
-        except (ImportError, AttributeError) as error:  # an edition that is still being built
+        except (ImportError, AttributeError) as error:  # this version lacks what the part measures
             print(f"{part.__name__} left out: {error}", file=sys.stderr)
     print(*found, sep="\n", end="\n\n", flush=True)
     for line in sys.stdin:
@@ -65,8 +65,8 @@ def serve():
         print(min(spans) / int(count), flush=True)
 
 
-# Each function returns a dict: name -> the call to measure. It tries both the old and the new
-# names.
+# Each function returns a dict that maps a name to the call to measure. It tries both the old and
+# the new names.
 
 
 def kinematics():
@@ -242,11 +242,11 @@ def _scara_pose():
     return getattr(rk, "ScaraPose", None) or rk.Target
 
 
-# ---- Comparison of the two editions
+# ---- Comparison of the two versions
 
 
 class Edition:
-    """A process that runs one edition of the package."""
+    """A process that runs one version of the package."""
 
     def __init__(self, folder):
         self.process = subprocess.Popen(
@@ -267,7 +267,7 @@ class Edition:
     def _answer(self):
         line = self.process.stdout.readline()
         if not line:
-            sys.exit(f"an edition ended with exit status {self.process.wait()}")
+            sys.exit(f"the process of a version ended with exit status {self.process.wait()}")
         return line.strip()
 
     def close(self):
@@ -293,7 +293,7 @@ def compare(folder, arguments):
     old, new = Edition(folder), Edition(ROOT)
     names = [n for n in new.names if not arguments.words or any(w in n for w in arguments.words)]
     for name in set(names) - set(old.names):
-        print(f"only in this edition: {name}")
+        print(f"only in this version: {name}")
     names = [name for name in names if name in old.names]
     counts = {n: max(1, round(BATCH / max(old.time(n, 1), 1e-7))) for n in names}
     for name in names:  # warm up
@@ -322,7 +322,7 @@ def compare(folder, arguments):
 
 
 def imports(folder):
-    """Print the cost of the import relative to NumPy's, in new processes that take turns."""
+    """Print the cost of the import relative to NumPy's, measured in turn in new processes."""
     timed = "import time; s = time.process_time(); import {}; print(time.process_time() - s)"
     spans = {"numpy": [], "old": [], "new": []}
     # Write byte code, as on a student's machine, even if the environment forbids it.

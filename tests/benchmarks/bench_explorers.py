@@ -23,8 +23,26 @@ from pathlib import Path
 import nbformat
 import numpy as np
 
-from robokin import IRB140, SCARA, Quaternion, Transform, blend, deg, follow, quintic, two_link
-from robokin.show import animate, joint_explorer, motion_explorer, target_explorer
+from robokin import (
+    IRB140,
+    SCARA,
+    Quaternion,
+    Transform,
+    blend,
+    deg,
+    follow,
+    quintic,
+    three_lever,
+    two_link,
+)
+from robokin.show import (
+    animate,
+    joint_explorer,
+    motion_explorer,
+    movement_explorer,
+    singularity_explorer,
+    target_explorer,
+)
 
 sys.path.insert(0, str(Path(__file__).resolve().parents[1]))
 from conftest import FLAGS, JupyterLab
@@ -82,9 +100,9 @@ def motion(x=650, fraction=0.1):
 interact(motion, x=(300, 900), fraction=(0, 0.5, 0.01));""",
 }
 
-# `painted` collects a time for every picture: for a canvas, when it is cleared before drawing; for
-# an image, when it is new and decoded. The time is taken in a later task, when the picture is on
-# the screen.
+# `painted` collects a time for every picture: for a canvas when it is cleared for a new drawing,
+# and for an image when a new one has been decoded. The time is read in a later task, after the
+# picture has appeared on the screen.
 WATCH = """cell => {
     window.painted = [];
     const soon = () => { const c = new MessageChannel();
@@ -136,7 +154,7 @@ async def paced(send):
 
 
 async def dragged(page, target, touch=None, slider=False):
-    """The times in ms from a move to its paint, in the last of three drags of an element."""
+    """The times in ms from a move to its paint, for the last of three drags of an element."""
     await page.evaluate(PAINTS)
     for _ in range(3):
         box = await page.locator(target).bounding_box()
@@ -191,6 +209,14 @@ async def ours(path, folder):
         "target, 8 branches": (target_explorer(IRB140), "[data-handle=free]"),
         "SCARA": (target_explorer(SCARA), "[data-handle=free]"),
         "planar": (target_explorer(two_link(0.3, 0.2)), "[data-handle=free]"),
+        "movement": (
+            movement_explorer(three_lever(1), [1.5] * 3, (1.8, 0.6)),
+            "[data-handle=free]",
+        ),
+        "singularity": (
+            singularity_explorer(IRB140, np.zeros(6), (0, 1, 1)),
+            "[data-handle=tool]",
+        ),
         "motion, 241 samples": (motion_explorer(IRB140, start, via, goal), "[data-handle=via]"),
     }
     found = {}

@@ -1,4 +1,6 @@
-"""The cost of `import robokin` relative to `import numpy`: python tests/benchmarks/bench_import.py
+"""Measure the cost of `import robokin` relative to `import numpy`.
+
+    python tests/benchmarks/bench_import.py
 
 New processes run the two imports in turn, so that a busy machine slows both equally. Aim: a ratio
 of at most 1.15.
@@ -32,7 +34,7 @@ def main():
         seconds("numpy", cache), seconds("robokin", cache)  # this run writes the byte code
         pairs = [(seconds("numpy", cache), seconds("robokin", cache)) for _ in range(RUNS)]
     numpy, robokin = (statistics.median(times) for times in zip(*pairs, strict=True))
-    # the runs least disturbed by other load
+    # the runs that were least disturbed by other processes
     fastest = [min(times) for times in zip(*pairs, strict=True)]
     ratio = robokin / numpy
     print(

@@ -8,11 +8,11 @@ To see the result for a processor without AVX-512, set the environment variable
 NPY_DISABLE_CPU_FEATURES="X86_V4 AVX512_ICL". A peer that is not installed is reported and left out.
 
 Everything runs on one thread of one processor core. Our call and the peer's are timed in turn. Each
-gets its input in the form that it prefers; preparing the input and freeing the result are not
+gets its input in the form that suits it best; preparing the input and freeing the result are not
 timed. "Times as fast" is the median over the rounds of (peer's time / our time); "best" compares
 the shortest times; "again" uses our second call in a row, whose code and data are still in the
 cache. The aims apply to the first call. "Compiled part" is a private function behind a peer's
-documented call; it counts as well, though no user calls it.
+documented call; it is compared as well, although users do not call it.
 """
 
 import gc
@@ -82,7 +82,7 @@ def main():
 
 
 def installed():
-    """The installed peers, by module name; print the names of the missing ones."""
+    """Return the installed peers by module name, and print the names of the missing ones."""
     here = {}
     for module, package in PEERS.items():
         try:
@@ -178,7 +178,7 @@ def fk_case(arm, here):
         robot = opw_robot(arm, here)
         peers["opw batch_forward"] = lambda: robot.batch_forward(q)
         peers["opw batch_forward, compiled part"] = lambda: robot._robot.batch_forward(q)
-    # its IRB-140 is a different model, with an upper arm of 360 mm
+    # the peer's IRB-140 is a different model, with an upper arm of 360 mm
     if "roboticstoolbox" in here and arm is PUMA560:
         robot2 = here["roboticstoolbox"].models.DH.Puma560()
         chain = robot2.ets()
@@ -213,11 +213,11 @@ def opw_robot(arm, here):
 
 
 def opw_ik(arm, pose, here):
-    """`reach`, the function of this peer that returns all eight rows: called as documented and,
-    faster, without its wrapper.
+    """This peer's function `reach`, which returns all eight rows: called as documented, and also
+    without its wrapper, which is faster.
 
-    It also rates every row inside the limits by a singular value, which takes most of its time and
-    is not needed here. Limits that no row satisfies prevent that.
+    It also computes a singular value for every row inside the limits, which takes most of its time
+    and is not needed here. We therefore pass limits that no row satisfies.
     """
     if "py_opw_kinematics" not in here:
         return {}
@@ -274,8 +274,8 @@ def exist(rows):
 
 
 def disagreement(ours, theirs):
-    """How many of their rows are not among ours, and how many of ours are not among theirs, modulo
-    2 pi and within 1e-6.
+    """Return how many of the peer's rows are not among ours, and how many of ours are not among the
+    peer's, modulo 2 pi and within 1e-6.
     """
     away = 0.0
     for i in range(6):
@@ -303,8 +303,8 @@ def threads(call):
 
 
 def race(ours, theirs, rounds):
-    """Seconds (rounds, 3) of our call, our call again and the peer's call, in turn; fewer rounds if
-    one takes a long time.
+    """The times in seconds (rounds, 3) of our call, a second call of ours and the peer's call, in
+    turn. There are fewer rounds if a round takes a long time.
     """
     gc.collect()
     gc.disable()

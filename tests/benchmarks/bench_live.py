@@ -1,11 +1,12 @@
-"""Compare explorers that ask a kernel with `interact`, which redraws a figure of the same content.
+"""Compare explorers that ask a kernel with `interact`, which redraws a figure with the same
+content.
 
     python tests/benchmarks/bench_live.py
 
 In JupyterLab a handle is dragged with 60 pointer moves at 60 per second. The script measures the
 time from a move to the paint of the first answer that includes it (median, 90th percentile). Then
 it measures the time from one key press to the paint, for the explorer and, in the same run, for
-`interact` with a Matplotlib figure of the same content. Aim: at least 4 times as fast. Then it
+`interact` with a Matplotlib figure with the same content. Aim: at least 4 times as fast. Then it
 drags 1000 times and compares the memory of page and kernel before and after. Aims: no errors in the
 console, and at most 2 MB (page) and 5 MB (kernel) more.
 """
@@ -25,7 +26,7 @@ from conftest import FLAGS, JupyterLab
 
 
 class Case(NamedTuple):
-    """`cell` shows the explorer, `handle` is dragged, `interact` draws the same with Matplotlib."""
+    """`cell` shows the explorer, `handle` is dragged; `interact` draws the same in Matplotlib."""
 
     cell: str
     handle: str
@@ -126,8 +127,8 @@ PAINTS = """root => {
     });
   })).observe(root, {attributes: true});
 }"""
-# The same for a slider that is dragged to the right: the printed x shows which moves an image
-# includes.
+# The same for a slider that is dragged to the right: the number x printed in an image shows which
+# moves it includes.
 THEIR_PAINTS = """cell => {
   const moves = [], slider = cell.querySelector("[role=slider]");
   const now = () => +slider.getAttribute("aria-valuenow");

@@ -3,9 +3,10 @@
     python tests/benchmarks/bench_player.py            100 frames, slider
     python tests/benchmarks/bench_player.py --long     also 1000 frames (Matplotlib takes minutes)
 
-Scene: the chain of source 001, tasks 3 and 4 (errata S1, "chain"), arm and three panels of curves.
-The build time includes the still picture. Slider: 51 blends x 2 corners of 2001 samples; the time
-from a key press to its paint, and the pictures painted for 30 key presses, one every 33 ms.
+The scene is the chain of source 001, tasks 3 and 4 (errata S1, "chain"), with the arm and three
+panels of curves. The build time includes the still picture. The slider has 51 blends x 2 corners of
+2001 samples. The script measures the time from a key press to its paint, and counts the pictures
+painted for 30 key presses, one every 33 ms.
 """
 
 import shutil
@@ -104,7 +105,7 @@ def jshtml(t, q):
 
 
 def player(t, q):
-    """The median build time (s) of five players, and the size (bytes)."""
+    """The median build time (s) of five players, and the size (bytes) of a player."""
     times = []
     for _ in range(5):
         begin = time.perf_counter()

@@ -1,9 +1,9 @@
 """Compare the methods of robokin/jobs/redundancy.py on the same 1000 targets, one after another:
 python tests/benchmarks/bench_redundancy.py [targets] [seed]
 
-This measures which method moves least over many tasks; no test asserts it. Least movement is the
-minimum for a single task (tests/test_redundancy.py), and a near posture may be a bad start for the
-next one.
+The script measures which method moves the arm least over many tasks; no test asserts this. The
+method of least movement is optimal only for a single task (tests/test_redundancy.py): the posture
+that it chooses may be a bad start for the next task.
 """
 
 import sys

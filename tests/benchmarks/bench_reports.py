@@ -5,11 +5,11 @@ of 30 notebooks.
 
 Every exercise is answered with its solution and every prediction with its first option, under a
 name other than the default. Then `report` judges the lab again, and `summary` reads all reports.
-Aims: every exercise passes, no remarks, and a report at most 500 kB larger than the lab with its
-new outputs.
+Aims: every exercise passes, there are no remarks, and a report is at most 500 kB larger than the
+lab with its new outputs.
 
 Then `summary` judges 30 solved notebooks: one after another, in parallel, and in parallel while two
-busy loops run. Aims: the same verdicts, and in parallel on two idle cores at most 0.6 of the time.
+busy loops run. Aims: the verdicts are the same, and two idle cores need at most 0.6 times the time.
 """
 
 import re
@@ -35,7 +35,7 @@ def solved(slug, folder):
     """Write a copy of the lab with all answers to `folder`, and copy the folders that it uses."""
     [path] = NOTEBOOKS.glob(f"*_{slug}.ipynb")
     notebook = nbformat.read(path, as_version=4)
-    predictions, cells, checks = book.lab(slug).predictions, [], []
+    cells, checks = [], []
     for cell in notebook.cells:
         found = re.match(r'check\("([\w.]+)"', cell.source)
         if found:  # at the end, since a solution may redefine names of the lab
@@ -46,9 +46,9 @@ def solved(slug, folder):
     for cell in cells:
         if cell.cell_type == "code":
             cell.source = cell.source.replace('"your name"', f'"{WHO}"')
-            asked = re.match(r'predict\("\w+\.(\w+)"\)$', cell.source)
+            asked = re.match(r'predict\("([\w.]+)"\)$', cell.source)
             if asked:
-                choice = "'a'" if predictions[asked[1]].unit is None else "1"
+                choice = "'a'" if book.find(asked[1], "predictions").unit is None else "1"
                 cell.source = f"{cell.source[:-1]}, {choice})"
             said = str(cell.get("outputs", ""))
             if "not answered yet" in said:
@@ -71,7 +71,7 @@ def judged(folder):
 
 
 def thirty(slugs, folder, count=30):
-    """The number of differences between verdicts on the same notebooks."""
+    """Return the number of differences between verdicts on the same notebooks."""
     for k in range(count):
         place = folder / f"student {k}"
         place.mkdir(parents=True)

@@ -1,14 +1,15 @@
-"""Do the tests notice faults in pages and in the course? The script inserts the hundred faults of
+"""Do the tests detect faults in pages and in the course? The script inserts the hundred faults of
 `faults.toml` into a copy of the repository, one at a time, and runs the tests that are likely to
-notice until one of them fails. (`mutants.py` does this for the rest of the package.)
+detect the fault until one of them fails. (`mutants.py` does this for the rest of the package.)
 
     python tests/benchmarks/faults.py --results before.jsonl          an hour or so
     python tests/benchmarks/faults.py --repo ../other --after before.jsonl
 
 White space, a comma before a closing bracket and parentheses around a single arrow parameter are
 ignored in `old`, so that faults survive a formatter. A test that has failed runs again without the
-fault and must pass; a fault whose run takes too long counts as noticed. `--after` begins with the
-test that noticed the fault last time, even if it has moved. Exit status 1: a fault was not noticed.
+fault and must pass; a fault whose run takes too long counts as detected. `--after` begins with the
+test that detected the fault last time, even if the test has moved. The exit status is 1 if a fault
+was not detected.
 """
 
 import argparse
@@ -78,7 +79,7 @@ def main():
             print(f"{number}/{len(faults)}", *told.values(), sep=" | ", flush=True)
             with given.results.open("a", encoding="utf-8") as file:
                 print(json.dumps(told, ensure_ascii=False), file=file)
-    print(f"{len(faults) - slipped} of {len(faults)} noticed")
+    print(f"{len(faults) - slipped} of {len(faults)} detected")
     return 1 if slipped else 0
 
 
@@ -99,7 +100,7 @@ def with_fault(sound, fault):
 
 
 def hunt(repo, sound, faulted, fault):
-    """(whether a test notices the fault, which test, how)"""
+    """Return whether a test detects the fault, which test, and how it failed."""
     answer = False, None, "no test has failed"
     for names in (fault.get("first", ()), fault["tests"]):
         tests, left_out = [test for name in names for test in where(repo, name)], []
@@ -107,7 +108,8 @@ def hunt(repo, sound, faulted, fault):
             test, how = run(faulted, tests, left_out)
             if test is None:
                 break
-            # A cell needs the cells before it. A file that failed collection is only collected.
+            # A cell needs the cells before it. For a file that could not be collected, only the
+            # collection is repeated.
             again = test.partition("::")[0] if ".ipynb" in test else test
             if how != "failed" or not run(sound, [again], ["--co"] * ("::" not in test))[0]:
                 return True, test, how
@@ -127,7 +129,7 @@ def where(repo, test):
 
 
 def run(place, tests, options):
-    """(the first test that has failed or None, how)"""
+    """Return the first test that fails, or None, and how it failed."""
     with tempfile.TemporaryDirectory(prefix="robokin-run-") as folder:
         notes = Path(folder, "notes")
         command = [sys.executable, "-c", RUN, notes, "-x", "-q", "--tb=no", "-o", "addopts="]

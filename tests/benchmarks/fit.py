@@ -1,10 +1,10 @@
-"""How much of a screen the views of every lab need in JupyterLab, at 1366 x 768 with the file
-browser open, and which need more than they may.
+"""Measure how much of a screen the views of every lab need in JupyterLab, at 1366 x 768 with the
+file browser open, and report the views that need more than is allowed.
 
     python tests/benchmarks/fit.py [notebooks/03_irb140_motion.ipynb ...]
 
-The stored outputs are trusted and nothing is run. For each view: the height in px, the height it
-may have, the tallest canvas and the tallest panel of curves.
+The stored outputs are trusted and nothing is run. For each view, the script prints the height in
+px, the height allowed, the tallest canvas and the tallest panel of curves.
 """
 
 import shutil

@@ -3,9 +3,9 @@ singularities.
 
     python tests/benchmarks/million_poses.py [poses per arm]
 
-Not part of the test suite (it takes about a minute). For each arm: no row may be wrong, none may be
-missing, and rows that do not exist must be entirely NaN. Which rows exist follows from distances
-alone, not from the solver.
+The script is not part of the test suite, since it takes about a minute. For each arm, no row may be
+wrong, none may be missing, and rows that do not exist must be entirely NaN. Which rows exist
+follows from distances alone, not from the solver.
 """
 
 import sys

@@ -1,4 +1,4 @@
-"""Do the tests notice wrong programs? The script inserts small faults into the package, one at a
+"""Do the tests detect wrong programs? The script inserts small faults into the package, one at a
 time, and runs the tests that use the changed module until one fails.
 
     python tests/benchmarks/mutants.py                        300 of all modules, about 20 minutes
@@ -6,13 +6,14 @@ time, and runs the tests that use the changed module until one fails.
     python tests/benchmarks/mutants.py --list robokin/motion/paths.py     what could be changed
     python tests/benchmarks/mutants.py --seed 7                           another sample
 
-Faults: another operator or comparison (`<` for `<=`), a negated or dropped condition, another
-constant, argmin for argmax and the like, a dropped call, keyword or statement, no result. Messages,
-docstrings and annotations are not changed. Faults without a visible effect are listed in
-`equivalent_mutants.toml`, each with its reason, and are replaced by others. A fault whose run takes
-too long counts as noticed.
+The faults are: a different operator or comparison (`<` for `<=`), a negated or dropped condition, a
+different constant, a similar function (argmin for argmax), a dropped call, keyword or statement,
+and a missing result. Messages, docstrings and annotations are not changed. Faults without a visible
+effect are listed in `equivalent_mutants.toml`, each with its reason, and are left out. A fault
+whose run takes too long counts as detected.
 
-Aim: at least 97 % of 300 noticed. The others are printed: each needs a test or a reason.
+The aim is to detect at least 97 % of 300 faults. The others are printed: each needs a test or a
+reason.
 
 The processes that run the tests are forked from one that has loaded NumPy, SciPy, pytest and
 Hypothesis; each works on its own copy of the package, with a few Hypothesis examples that are
@@ -45,10 +46,10 @@ ROOT = Path(__file__).resolve().parent.parent.parent
 EQUIVALENT = Path(__file__).with_name("equivalent_mutants.toml")
 WORKERS = 2
 SECONDS = 120  # time limit for all tests of one mutant
-MEMORY = 8 << 30  # bytes of address space: a fault may ask for any amount
+MEMORY = 8 << 30  # bytes of address space: a fault may request any amount
 
-# The tests that may notice a fault in a module, the likeliest first: a file, or a file with an
-# expression for -k.
+# The tests that may detect a fault in a module, the most likely ones first: a file, or a file with
+# an expression for -k.
 TESTS = {
     "robokin/quaternion.py": ["quaternion", "transform", "paths"],
     "robokin/transform.py": ["transform", "arm", "paths"],
@@ -83,7 +84,8 @@ TESTS = {
     "robokin/jobs/steppers/phase_table.py": ["steppers"],
     "robokin/jobs/steppers/rotor.py": ["steppers"],
 }
-# Tests that run after these for every module, since drawing is slow and notices few faults.
+# Tests that run after these for every module, since tests of drawings are slow and detect few
+# faults.
 ALL = [
     "wrong_input",
     "read_only",
@@ -161,7 +163,8 @@ SWAPPED = {}
 for _pair in PAIRS.split(", "):
     _a, _b = _pair.split()
     SWAPPED |= {_a: _b, _b: _a}
-# Calls and keywords that only serve people or the type checker; `strict` only catches our mistakes.
+# Calls and keywords that matter only to readers or to the type checker; `strict` only reports our
+# own mistakes.
 SILENT_CALLS = {"TypeVar", "warn", "overload", "cast"}
 SILENT_KEYWORDS = {"strict"}
 
@@ -187,7 +190,7 @@ def _tree(module):
 
 
 def _statements(tree):
-    """Every statement with an effect, and the path to it: a list of (field, index)."""
+    """Yield every statement that has an effect, and the path to it: a list of (field, index)."""
 
     def walk(body, path, field):
         for i, statement in enumerate(body):
@@ -216,7 +219,7 @@ def _is_stub(function):
 
 
 def _faults(statement):
-    """(path to the node, its replacement, the change in words) for the parts of the statement."""
+    """Yield the path to a node of the statement, its replacement and the change in words."""
     kind = type(statement)
     if kind in (ast.Expr, ast.Assign, ast.AugAssign, ast.Raise) and _can_go(statement):
         yield (), ast.Pass(), "removed"
@@ -421,8 +424,8 @@ def main():
 
 
 def run(sample):
-    """Run the tests on every mutant, a dict with its source; print the unnoticed ones and the
-    percentages.
+    """Run the tests on every mutant in `sample` (a dict that maps a mutant to its source), and
+    print the undetected mutants and the percentages.
     """
     _load()
     start, alive, results = time.monotonic(), {}, {}
@@ -450,13 +453,13 @@ def run(sample):
                     results[number] = _verdict(status, home, slow and not ended)
                     if not results[number][0]:
                         mutant = next(itertools.islice(sample, number, None))
-                        print("NOT NOTICED", *mutant.key, sep="\n    ", flush=True)
+                        print("NOT DETECTED", *mutant.key, sep="\n    ", flush=True)
                     del alive[child]
                     shutil.rmtree(home)
                     if len(results) % 20 == 0:
                         survived = sum(not noticed for noticed, _ in results.values())
                         print(
-                            f"  {len(results)}, {survived} unnoticed, "
+                            f"  {len(results)}, {survived} undetected, "
                             f"{time.monotonic() - start:.0f} s",
                             flush=True,
                         )
@@ -536,7 +539,7 @@ def _run_tests(home, runs, plugin):
     for run in runs:
         name = f"tests/{Path(run[0]).name}"
         if isinstance(plugin, _Sorted) and plugin.seconds.get(name) == float("inf"):
-            continue  # it cannot even be imported
+            continue  # the fault prevents the import
         status = pytest.main([*options, *run], plugins=[plugin])
         if status not in (0, 5) and "-x" in options:  # 5: no test was selected
             return 1
@@ -571,8 +574,8 @@ class _Sorted:
 
 
 def _baseline(base, modules):
-    """The time of each test without a fault: test -> seconds. Failing tests are reported and
-    skipped.
+    """Return a dict that maps each test to its time in seconds without a fault. Failing tests are
+    reported and skipped.
     """
     start, path, alive = time.monotonic(), base / "seen", set()
     waiting = list({tuple(run) for module in modules for run in _tests(module)})
@@ -593,7 +596,7 @@ def _baseline(base, modules):
 
 
 def _verdict(status, home, slow):
-    """(whether the fault was noticed, by what)"""
+    """Return whether the fault was detected, and by what."""
     if slow:
         return True, "took too long"
     log = (home / "log").read_text(errors="replace") if (home / "log").exists() else ""
@@ -614,7 +617,7 @@ def _report(sample, results, seconds):
         print(f"{module:36} {noticed:4} of {count:4}  {noticed / count:7.1%}")
     noticed, count = (sum(n) for n in zip(*by_module.values(), strict=True))
     print(f"{'all':36} {noticed:4} of {count:4}  {noticed / count:7.1%}   {seconds:.0f} s")
-    print("noticed by:", ", ".join(f"{name} {n}" for name, n in killers.most_common(12)))
+    print("detected by:", ", ".join(f"{name} {n}" for name, n in killers.most_common(12)))
     return 0 if noticed >= 0.97 * count else 1
 
 

@@ -47,10 +47,10 @@ def verdict(path, H):
 
 
 def brute_force(q0, K1, H, step=2 * deg):
-    """The least S of a path around the obstacle on a grid of postures, by SciPy's Dijkstra and the
-    distances of the tests. On an edge, one step of one joint, no lever can come nearer than L/7: a
-    point moves by at most the step times the number of turning levers, and half of that from the
-    nearer end.
+    """The least S of a path around the obstacle on a grid of postures, computed with SciPy's
+    Dijkstra and the distances of the tests. Along an edge, which is one step of one joint, no lever
+    comes nearer than L/7: a point moves by at most the step times the number of turning levers, and
+    is at most half of that from its place at the nearer end.
     """
     axes = [np.unique(np.r_[np.arange(v, 0, -step), np.arange(v, np.pi, step)]) for v in q0]
     grid = np.stack(np.meshgrid(*axes, indexing="ij"), axis=-1)

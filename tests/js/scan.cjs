@@ -1,6 +1,6 @@
-// Data about scripts for a test, read with TypeScript's parser. The arguments are the folder of the
-// packages and then the files. Printed for each file: its functions with their first lines and their
-// lengths in lines, and the values of its top-level constants.
+// Prints data about scripts for a test, read with TypeScript's parser. The arguments are the folder
+// of the packages and then the files. For each file it prints the functions with their first lines
+// and their lengths in lines, and the values of the top-level constants.
 
 const {readFileSync} = require("fs");
 const ts = require(`${process.argv[2]}/typescript`);

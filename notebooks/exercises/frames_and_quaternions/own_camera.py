@@ -1,4 +1,4 @@
-"""Numbers, conditions and sentences of exercise 2 of frames and quaternions."""
+"""The numbers, conditions and sentences of exercise 2 of frames and quaternions."""
 
 from collections.abc import Mapping
 from typing import Any
@@ -22,7 +22,7 @@ UNITS = dict.fromkeys(("eye_x", "eye_y", "eye_z", "part_x", "part_y", "part_z"),
 
 
 def given(who: Any) -> Numbers:
-    """A place for the camera, and a part that is lower and to the side."""
+    """The numbers of a student: a place for the camera, and a part below it and to the side."""
     roll = dice("frames_and_quaternions", who)
 
     def signed(low: int, steps: int) -> int:
@@ -39,21 +39,21 @@ def places(given: Given) -> tuple[Floats, Floats]:
 
 
 def form(answer: Any, given: Any) -> Transform:
-    """Return the answer if it is one pose. ValueError: it is not."""
+    """Return the answer as one pose. ValueError: it is not one pose."""
     if isinstance(answer, Transform) and answer.shape == ():
         return answer
     wanted = "Wanted one Transform, the pose of the camera"
     if isinstance(answer, Quaternion):
-        raise ValueError(f"{wanted}: the turn is there, the place is missing.")
+        raise ValueError(f"{wanted}. Your rotation has no position: use Transform(rotation, eye).")
     with np.errstate(all="ignore"):
         shape = np.shape(answer)
     if shape == (4, 4):
         try:
             return Transform.from_matrix(floats(answer))
         except (TypeError, ValueError) as error:
-            raise ValueError(f"{wanted}. Your matrix is no pose: {error}") from None
-    hint = ": a place without a turn" if shape == (3,) else ""
-    hint = ": a matrix of a turn without a place" if shape == (3, 3) else hint
+            raise ValueError(f"{wanted}. Your matrix is not a pose: {error}") from None
+    hint = ": a position without a rotation" if shape == (3,) else ""
+    hint = ": a rotation matrix without a position" if shape == (3, 3) else hint
     raise ValueError(f"{wanted}, got {in_words(answer)}{hint}.")
 
 
@@ -67,11 +67,11 @@ def between(a: Floats, b: Floats) -> float:
 
 
 def faults(camera: Transform, given: Given) -> list[Fault]:
-    """What is wrong with the place, the direction of z, the level of x and the direction of y."""
+    """The faults of the position, of the direction of z, and of the directions of x and y."""
     back = camera.inverse()
     if found_in(camera, given) and not found_in(back, given):
-        says = "This is the base, seen from the camera: the inverse of the camera's pose."
-        return [("the base, seen from the camera", says)] * 4
+        says = "You gave the base as the camera sees it: the inverse of the camera's pose."
+        return [("the inverse pose", says)] * 4
     return found_in(camera, given)
 
 
@@ -80,7 +80,7 @@ def found_in(camera: Transform, given: Given) -> list[Fault]:
     found = [*misplaced(camera.translation, eye, part)]
     rotation = camera.rotation.as_matrix()
     if not np.isfinite(rotation).all():
-        return [("NaN", "A NaN stands where a number should.")] * 4
+        return [("NaN", "Your pose contains NaN instead of a number.")] * 4
     x, y, z = rotation.T
     look = unit(part - eye)
     if between(z, look) > NEAR:
@@ -90,22 +90,22 @@ def found_in(camera: Transform, given: Given) -> list[Fault]:
         short = np.cross(Z, look)
         turn = Quaternion.from_angle_axis(between(Z, look), unit(short))
         degrees = apart(abs(tilt) / deg, 0)[0]
-        says = f"The x axis should be level; it is {degrees}° out of the horizontal."
+        says = f"The x axis should be level, but it is {degrees}° away from the horizontal."
         if float(turn.angle_to(camera.rotation)) < NEAR:
-            name = "the shortest turn"
+            name = "the shortest rotation"
             says += (
-                " The shortest turn from z to the line of sight leaves the turn about this line to "
-                "chance."
+                " You used the shortest rotation from z to the line of sight. It does not control "
+                "the rotation about this line."
             )
         else:
             name = "not level"
         found.append((name, says))
     elif abs(rise) <= NEAR:
-        found.append(("y is level", "The y axis should point down, and is level."))
+        found.append(("y is level", "The y axis should point down, but it is level."))
     elif rise > 0:
-        says = f"The y axis should point down, and points {rise / deg:.1f}° up."
+        says = f"The y axis should point down, but it points up by {rise / deg:.1f}°."
         if not found:
-            says += " Turn the camera by 180° about its line of sight."
+            says += " Rotate the camera by 180° about its line of sight."
         found.append(("upside down", says))
     return found[:4]
 
@@ -115,19 +115,19 @@ def misplaced(place: Floats, eye: Floats, part: Floats) -> list[Fault]:
     if off <= 1 * mm:
         return []
     should, stands = apart(eye / mm, place / mm)
-    told = f"It should stand at ({should}) mm and stands at ({stands}) mm."
+    told = f"The camera should be at ({should}) mm, but it is at ({stands}) mm."
     if np.linalg.norm(place) > 20:
         return [("mm for m", f"{told} {METRES}")]
     for name, other in (
-        ("the part's place for the camera's", part),
-        ("the way from camera to part for the place", part - eye),
-        ("the way from part to camera for the place", eye - part),
-        ("the sign of the place", -eye),
-        ("no place", 0 * eye),
+        ("the camera is at the part", part),
+        ("the camera is at part - eye", part - eye),
+        ("the camera is at eye - part", eye - part),
+        ("the camera is at -eye", -eye),
+        ("the camera is at the base", 0 * eye),
     ):
         if np.linalg.norm(place - other) < 1 * mm:
             return [(name, told)]
-    return [("not at your place", told)]
+    return [("the camera is elsewhere", told)]
 
 
 def swung(look: Floats) -> Quaternion:
@@ -142,7 +142,7 @@ def tilted(look: Floats) -> Quaternion:
 
 def looking(rotation: Floats, look: Floats, eye: Floats, part: Floats) -> Fault:
     angle = between(rotation[:, 2], look)
-    told = f"The z axis should point at the part; it points {angle / deg:.1f}° beside it."
+    told = f"The z axis should point at the part, but it misses it by {angle / deg:.1f}°."
     turned = ((name, rotation[:, 2], other, says) for name, other, says in turns(look))
     for name, axis, other, says in (*lines(rotation, look, eye, part), *turned):
         if between(axis, other) < NEAR:
@@ -151,75 +151,76 @@ def looking(rotation: Floats, look: Floats, eye: Floats, part: Floats) -> Fault:
 
 
 def lines(rotation: Floats, look: Floats, eye: Floats, part: Floats) -> tuple[Direction, ...]:
-    """Mistakes: another axis is along the line of sight, or z is along another line."""
+    """The mistakes in which another axis is along the line of sight, or z along another line."""
     x, y, z = rotation.T
     return (
-        ("looks away", z, -look, "It looks exactly the other way: part - eye, not eye - part."),
+        ("looks away", z, -look, "It points exactly away: use part - eye, not eye - part."),
         (
-            "the inverse turn",
+            "the inverse rotation",
             rotation[2],
             look,
-            "The inverse turn would look at it. The turned axes are the columns, not the rows.",
+            "The inverse rotation would be right. The axes are the columns of the matrix, not the "
+            "rows.",
         ),
-        ("x looks at the part", x, look, "It is the x axis that looks at the part."),
-        ("y looks at the part", y, look, "It is the y axis that looks at the part."),
-        ("x looks away from the part", x, -look, "It is the x axis that lies along the line."),
-        ("y looks away from the part", y, -look, "It is the y axis that lies along the line."),
+        ("x looks at the part", x, look, "Your x axis points at the part."),
+        ("y looks at the part", y, look, "Your y axis points at the part."),
+        ("x looks away from the part", x, -look, "Your x axis points exactly away from it."),
+        ("y looks away from the part", y, -look, "Your y axis points exactly away from it."),
         (
             "seen from the base",
             z,
             unit(part),
-            "It looks along the line from the base to the part. The camera stands at eye: part - "
-            "eye.",
+            "It points along the line from the base to the part, but the camera is at eye: use "
+            "part - eye.",
         ),
-        ("the sum for the difference", z, unit(part + eye), "The line goes along part - eye."),
-        ("looks at the base", z, unit(-eye), "It looks at the origin of the base."),
-        ("looks at the base", z, unit(eye), "It looks along the line from the base to itself."),
+        ("the sum for the difference", z, unit(part + eye), "It points along part + eye."),
+        ("looks at the base", z, unit(-eye), "It points at the origin of the base."),
+        ("looks away from the base", z, unit(eye), "It points away from the origin of the base."),
     )
 
 
 def turns(look: Floats) -> tuple[tuple[str, Floats, str], ...]:
-    """Mistakes: z after a wrong rotation."""
+    """The mistakes in which a wrong rotation was applied to z."""
     level = np.hypot(*look[:2])
     return (
-        ("not turned", Z, "The z axis is where it was."),
-        ("straight down", -Z, "It looks straight down."),
+        ("not rotated", Z, "It is still the z axis of the base."),
+        ("straight down", -Z, "It points straight down."),
         (
             "to the opposite side",
             look * [-1, -1, 1],
-            "It looks to the opposite side: half a turn about z is missing, as with arctan where "
-            "arctan2 belongs.",
+            "It points to the opposite side. A half turn about z is missing, as if you had used "
+            "arctan instead of arctan2.",
         ),
         *(
             (
                 "a quarter turn off",
                 np.array([-sign * look[1], sign * look[0], look[2]]),
-                "It is a quarter turn off about z: with no turn the camera's x axis, not its y "
-                "axis, lies along x of the base.",
+                "It is a quarter turn off about z: before the rotation, the camera's x axis, not "
+                "its y axis, points along x of the base.",
             )
             for sign in (+1, -1)
         ),
         (
-            "the order of the turns",
+            "the order of the rotations",
             tilted(look) @ swung(look) @ Z,
-            "The two turns are in the wrong order: the tilt belongs to the turned camera, and "
-            "stands at the right.",
+            "Your two rotations are in the wrong order: the tilt is about an axis of the rotated "
+            "camera, so its factor is at the right.",
         ),
-        ("looks up", look * [1, 1, -1], "It looks up as steeply as it should look down."),
-        ("mirrored", look * [1, -1, 1], "The sign of y is turned round: the turn about z."),
-        ("mirrored", look * [-1, 1, 1], "The sign of x is turned round: the turn about z."),
-        ("x and y exchanged", look[[1, 0, 2]], "x and y are exchanged: arctan2 takes y first."),
-        ("half of the turn", unit(Z + look), "It is turned half of the way."),
-        ("twice the turn", 2 * look[2] * look - Z, "It is turned twice as far as it should be."),
+        ("looks up", look * [1, 1, -1], "It points up as steeply as it should point down."),
+        ("mirrored", look * [1, -1, 1], "Its y has the wrong sign: look at your rotation about z."),
+        ("mirrored", look * [-1, 1, 1], "Its x has the wrong sign: look at your rotation about z."),
+        ("x and y exchanged", look[[1, 0, 2]], "Its x and y are exchanged: arctan2 takes y first."),
+        ("half the rotation", unit(Z + look), "You rotated it by half the angle."),
+        ("twice the rotation", 2 * look[2] * look - Z, "You rotated it by twice the angle."),
         (
             "sine and cosine of the slope exchanged",
             unit(np.append(look[:2] / max(level, 1e-9) * abs(look[2]), -level)),
-            "Its slope is the right angle measured from the other line: from z for from the "
-            "horizontal, or the other way round.",
+            "Its slope is the right angle, but measured from the wrong line: from z instead of "
+            "from the horizontal, or the other way round.",
         ),
         (
-            "level: the height is left out",
+            "looks level",
             unit(look * [1, 1, 0]),
-            "It looks in the right direction of the compass, but not down.",
+            "It points to the right side, but it is level: you left out the height.",
         ),
     )

@@ -1,6 +1,6 @@
 """The facts behind the predictions of frames and quaternions.
 
-Objective 1: p1 to p4. Objective 2: p5 to p7. Objective 3: p8, p9.
+Objective 1: p1 to p4. Objective 2: p5 to p7. Objective 3: p8 and p9.
 """
 
 from collections.abc import Callable, Mapping
@@ -51,7 +51,9 @@ def p2() -> dict[str, Any]:
         "sine": SHIFT * np.sin(TURN * deg),
         "cosine": SHIFT * (1 - np.cos(TURN * deg)),
     }
-    names = ("the chord", "no distance", "the arc", "both shifts", "the height", "along x alone")
+    facts["metres"] = facts["chord"] * mm
+    names = "the chord", "no distance", "the arc", "both shifts"
+    names += "the height", "along x alone", "in metres"
     guesses = dict(zip(names, facts.values(), strict=True))
     right = nearest(guesses, np.linalg.norm((one - two)[:3, 3]))
     return facts | {"turn": TURN, "shift": SHIFT, "right": right}
@@ -81,7 +83,7 @@ def dh(q: float, d: float, a: float, alpha: float) -> Floats:
 
 @cache
 def p4() -> dict[str, Any]:
-    """The parameter of a link between parallel axes that does not move the next axis."""
+    """The number of a link between parallel axes that does not move the next axis."""
     link = {"q": 20 * deg, "d": 100 * mm, "a": 300 * mm, "alpha": 0.0}
     free = []
     for name in NUMBERS:
@@ -104,8 +106,9 @@ def p5() -> dict[str, Any]:
         "root": 90 * np.sqrt(2),
         "one": 90.0,
         "half": np.arccos(w) / deg,
+        "radians": 2 * np.arccos(w),
     }
-    names = ("one turn", "the sum", "like arrows", "one hinge", "half of it")
+    names = ("one turn", "the sum", "like arrows", "one hinge", "half of it", "in radians")
     right = nearest(dict(zip(names, facts.values(), strict=True)), float(angle) / deg)
     return facts | {"w": float(two.wxyz[0]), "axis": told(axis, 3), "right": right}
 
@@ -186,8 +189,9 @@ def p9() -> dict[str, Any]:
         "half": 180.0,
         "rest": 180 - way,
         "more": 360 + way,
+        "radians": (360 - way) * deg,
     }
     ways = "the rest of a turn", "as asked", "the arc"
-    names = *ways, "half a turn", "the rest of a half", "a turn more"
+    names = *ways, "half a turn", "the rest of a half", "a turn more", "in radians"
     guesses = dict(zip(names, facts.values(), strict=True))
     return facts | {"right": nearest(guesses, turned)}

@@ -1,4 +1,4 @@
-"""Cases, form and law of exercise 1; its text is in the Markdown file beside it, and its wrong
+"""Cases, form and law of exercise 1. Its text is in the Markdown file next to this one. Its wrong
 programs also use `pose`, `turn`, `place` and `scaled`.
 """
 
@@ -60,7 +60,7 @@ def form(result: Any, case: Case) -> Floats:
     except (TypeError, ValueError):
         raise ValueError(f"{wanted}, got {in_words(result)}") from None
     if matrix.shape != (4, 4):
-        more = ": the place alone, the turn is missing" if matrix.shape == (3,) else ""
+        more = ": a position without a rotation" if matrix.shape == (3,) else ""
         raise ValueError(f"{wanted}, got {in_words(result)}{more}")
     return matrix
 
@@ -78,14 +78,15 @@ def law(case: Case, yours: Floats, wanted: Floats) -> str | None:
         )
     if not np.allclose(yours[3], [0, 0, 0, 1], rtol=0, atol=1e-6):
         last, is_last = apart([0, 0, 0, 1], yours[3], 0)
-        return row + f"the last row should be {last}, and is {is_last}"
+        return row + f"the last row should be {last}, but is {is_last}"
     if not np.allclose(place(yours), place(wanted), rtol=0, atol=1e-6):
         at, is_at = apart(place(wanted) / mm, place(yours) / mm)
-        return f"{row}the part should be at ({at}) mm, seen from the flange, and is at ({is_at}) mm"
+        return f"{row}the part should be at ({at}) mm, seen from the flange, but is at ({is_at}) mm"
     k = int(abs(turn(yours) - turn(wanted)).max(axis=0).argmax())
     axis, is_axis = apart(wanted[:3, k], yours[:3, k], 3)
     name = "xyz"[k]
-    return f"{row}the place is right; the part's {name} axis should be ({axis}), and is ({is_axis})"
+    told = f"the part's {name} axis should be ({axis}), but is ({is_axis})"
+    return f"{row}the position is right; {told}"
 
 
 def same(a: Floats, b: Floats) -> bool:

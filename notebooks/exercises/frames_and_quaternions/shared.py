@@ -1,4 +1,4 @@
-"""Code that exercises and predictions of this lab share."""
+"""Code that the exercises and predictions of this lab share."""
 
 import numpy as np
 from numpy.typing import NDArray

@@ -11,7 +11,7 @@ __all__ = ["Quaternion", "angle", "arc", "chord", "deg", "floats", "np", "unit",
 
 
 def near(a: Floats, b: Floats) -> Floats:
-    """b or -b, whichever is nearer to a."""
+    """Return b or -b, whichever is nearer to a."""
     return b if a @ b >= 0 else -b
 
 

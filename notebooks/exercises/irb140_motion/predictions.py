@@ -20,7 +20,6 @@ from robokin import (
     lin,
     linear,
     mm,
-    ptp,
     quintic,
     trapezoidal,
 )
@@ -81,28 +80,38 @@ def p1() -> dict[str, Any]:
     }
 
 
-def joint_move() -> Floats:
-    """The joint values of PTP between the poses of section 2."""
-    return ptp(posture(LEFT), posture(RIGHT), S)
+def per_progress() -> Floats:
+    """What the line of section 2 asks of each joint: its speed over its speed limit, if the
+    progress grows by 1 per second.
+    """
+    asked: Floats = abs(differentiate(along(), S)) / IRB140.speed_limits
+    return asked
+
+
+def free_pace() -> Floats:
+    """The times at which LIN is at the progress S, if one joint is always at its speed limit."""
+    most = per_progress().max(axis=-1)
+    steps = (most[1:] + most[:-1]) / 2 * np.diff(S)
+    return np.concatenate([[0.0], np.cumsum(steps)])
 
 
 @cache
 def p2() -> dict[str, Any]:
-    facts: dict[str, Any] = {}
-    for name, q in (("lin", along()), ("ptp", joint_move())):
-        share = abs(differentiate(q, T)).max(axis=0) / IRB140.speed_limits
-        step = np.linalg.norm(np.diff(IRB140.fk(q).translation, axis=0), axis=-1)
-        facts[f"{name}_joint"] = int(share.argmax()) + 1
-        facts[f"{name}_share"] = 100 * share.max()
-        facts[f"{name}_time"] = DURATION * share.max()
-        facts[f"{name}_way"] = step.sum() / mm
-    facts["by_way"] = facts["lin_time"] * facts["ptp_way"] / facts["lin_way"]
-    guesses = {
-        "sooner": facts["ptp_time"],
-        "as long": facts["lin_time"],
-        "by the way": facts["by_way"],
+    asked, turns = per_progress(), abs(along()[-1] - along()[0])
+    lin_joint, ptp_joint = asked.max(axis=0).argmax(), (turns / IRB140.speed_limits).argmax()
+    lin_time, ptp_time = asked.max(), (turns / IRB140.speed_limits).max()
+    best = free_pace()[-1]
+    right = "between" if ptp_time <= best < 0.99 * lin_time else "no change"
+    return {
+        "lin_time": lin_time,
+        "lin_joint": lin_joint + 1,
+        "low": 100 * asked[0, lin_joint] / lin_time,
+        "ptp_time": ptp_time,
+        "ptp_joint": ptp_joint + 1,
+        "turn": turns[ptp_joint] / deg,
+        "best": best,
+        "right": right if best >= ptp_time else "shorter way",
     }
-    return facts | {"right": closest(guesses, facts["ptp_time"])}
 
 
 FROM, TO = 350.0, 60.0  # degrees, joint 6

@@ -6,10 +6,10 @@ import numpy as np
 
 from robokin import deg, mm
 from robokin.jobs.steppers import shortest_turn, station_postures
-from robokin.show import JOINT_STYLES, curves, figure
-from robokin.show.palette import COMPARED, INK, SOFT
+from robokin.show import JOINT_STYLES, figure
+from robokin.show.palette import COMPARED, INK
 
-from .predictions import geared, missed, p1, p3, p4, p5, p6, p9, path, random_moves
+from .predictions import geared, p1, p3, p4, p5, p6, p9, path, random_moves
 from .shared import LOADER
 
 
@@ -107,55 +107,9 @@ def p7_view() -> Any:
     return fig
 
 
-def p8_view() -> Any:
-    away = np.linspace(-180, 180, 361)
-    says = (
-        "The torque over the angle from the rotor to the field. A magnet is pulled hardest at 90 "
-        "degrees and has one place of rest. Plain iron is not pulled at 90 degrees at all and "
-        "rests at 0 and at 180."
-    )
-    fig = figure(says, 6.4, 3.2)
-    ax = fig.subplots()
-    curves(
-        ax,
-        away,
-        {"magnet": np.sin(away * deg), "plain iron": np.sin(2 * away * deg)},
-        xlabel="field ahead of the rotor, °",
-        ylabel="torque, share of the greatest",
-        title="A quarter turn ahead pulls a magnet, not plain iron",
-    )
-    ax.axvline(90, color=INK, lw=1, ls=":")
-    ax.axhline(0, color=SOFT, lw=0.8, zorder=0)
-    ax.legend(fontsize=9, loc="center left", bbox_to_anchor=(1, 0.5))
-    ax.set_xticks(range(-180, 181, 90))
-    fig.tight_layout()
-    return fig
-
-
 def p9_view() -> Any:
     facts = p9()
     return (
         f"Twelve half steps turn the field by 12 x 45° = {facts['field']:.0f}°, one turn and a "
         f"half. The rotor goes 1/50 of that: {facts['rotor']:.1f}°, or twelve times 0.9°."
     )
-
-
-def p10_view() -> Any:
-    rest, ramped = ({f: n for f, n in ways.items() if n} for ways in missed().values())
-    says = (
-        f"Steps lost of 48 over the frequency. From rest {min(rest.values())} to 48 are lost from "
-        f"{min(rest)} pulses per second on, with a ramp {min(ramped.values())} to "
-        f"{max(ramped.values())} from {min(ramped)} on, and always a multiple of 4."
-    )
-    fig = figure(says, 6.4, 3.2)
-    ax = fig.subplots()
-    for j, (name, ways) in enumerate(missed().items()):
-        color, dash = COMPARED[j]
-        look = {"color": color, "marker": "os"[j], "ms": 5}
-        ax.plot(list(ways), list(ways.values()), ls=dash, label=name, **look)
-    ax.legend(fontsize=9)
-    ax.set(xlabel="frequency, pulses/s", ylabel="steps lost of 48", yticks=range(0, 49, 8))
-    ax.set_title("Lost steps come in fours; a ramp loses fewer")
-    ax.grid(axis="y", lw=0.5)
-    fig.tight_layout()
-    return fig

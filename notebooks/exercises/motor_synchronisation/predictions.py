@@ -1,4 +1,4 @@
-"""The facts behind the predictions. Objective 1: p1 and p2; 2: p3 to p7; 3: p8 to p10."""
+"""The facts behind the predictions. Objective 1: p1 and p2; 2: p3 to p7; 3: p9."""
 
 from functools import cache
 from typing import Any
@@ -8,13 +8,11 @@ import numpy as np
 from robokin import deg, mm
 from robokin.jobs.steppers import (
     Move,
-    Stepper,
     counts,
     energised,
     frequencies,
     joint_values,
     phases,
-    ramp,
     shortest_turn,
     station_postures,
     synchronised,
@@ -139,14 +137,6 @@ def p7() -> dict[str, Any]:
     return {"alone": alone, "counted": counted, "expected": expected, "right": right}
 
 
-def p8() -> dict[str, Any]:
-    """The torque of the next winding, 90° ahead, on a magnet and on plain iron."""
-    ahead = 90 * deg
-    magnet, iron = float(np.sin(ahead)), abs(round(float(np.sin(2 * ahead)), 9))
-    right = "cannot tell" if iron < 1e-6 < magnet else "as a magnet"
-    return {"magnet": magnet, "iron": iron, "right": right}
-
-
 def p9() -> dict[str, Any]:
     rows = energised(phases("half-step", "unipolar"), np.ones(12))
     field = float(np.unwrap(np.angle(rows @ np.exp(0.5j * np.pi * np.arange(4))))[-1]) / deg
@@ -156,29 +146,4 @@ def p9() -> dict[str, Any]:
         "full": 12 * STEP,
         "rows": 12 / 8 * STEP,
         "right": "half steps",
-    }
-
-
-@cache
-def missed() -> dict[str, dict[int, int]]:
-    """How many of 48 steps the motor of the lab loses, for each frequency in pulses per second:
-    from rest, and with a ramp of 0.1 s that starts at 40.
-    """
-    motor, ones = Stepper(torque=0.02, inertia=1e-6, damping=6e-5, rise=0), np.ones(48)
-    tempos = range(60, 281, 10)
-    return {
-        "from rest": {f: motor.run(ramp(48, f, f, 0), ones).lost for f in tempos},
-        "with a ramp": {f: motor.run(ramp(48, 40, f, 0.1), ones).lost for f in tempos},
-    }
-
-
-def p10() -> dict[str, Any]:
-    found = sorted({n for ways in missed().values() for n in ways.values()} - {0})
-    return {
-        "some": ", ".join(map(str, found)),
-        "few": found[0],
-        "tempo": 160,
-        "lost": missed()["from rest"][160],
-        "runs": sum(map(len, missed().values())),
-        "right": "only fours" if np.gcd.reduce(found) == 4 else "any number",
     }

@@ -1,5 +1,5 @@
 """Cases, form and law of exercise 1; its text is in the Markdown file beside it, and its wrong
-programs also use `L0`, `corner` and `distance`.
+programs also use `corner` and `third`.
 """
 
 from typing import Any
@@ -11,71 +11,69 @@ from robokin.course.exercises import in_words
 from robokin.course.told import apart, floats
 from robokin.units import wrapped
 
-from .shared import HIGH, L0, LOW, MINUS, Floats, corner, distance, place, shown
+from .shared import MINUS, Floats, corner, shown, third
 
-__all__ = ["L0", "cases", "corner", "distance", "form", "law", "same"]
+__all__ = ["cases", "corner", "form", "law", "same", "third"]
+Case = tuple[float, float, float, float, float]
 
 
-def cases(rng: np.random.Generator) -> list[tuple[Floats]]:
+def cases(rng: np.random.Generator) -> list[Case]:
+    """Joints 1 and 2, the first lever, and the place of the camera along and beside the second."""
     postures = [
-        (0, 90, 0, 0),
-        (0, -90, 0, 0),
-        (40, 60, -70, 120),
-        (40, -60, -70, 120),
-        (-30, 0, 20, 50),  # stretched: its own mirror image
-        (0, 148, 0, 100),  # the angle inside the triangle is obtuse
-        (20, -147, 30, 100),
-        (100, 30, 390, 180),  # joint 3: more than one turn
-        (-100, -30, -390, 10),
-        (130, 100, 300, 60),
-        (-130, -100, -300, 60),
-        (90, 143.2, 0, 20),
+        (0, 90, 200, 250, 0),  # the camera at the end of the lab's second lever
+        (0, 90, 200, 250, 100),
+        (0, -90, 200, 250, 100),
+        (40, 60, 300, 150, 60),
+        (40, 60, 300, 150, -60),
+        (-30, -50, 300, 150, 60),
+        (25, -np.degrees(np.arctan2(80, 200)), 250, 200, 80),  # stretched: its own mirror image
+        (0, 140, 200, 260, 40),  # the angle inside the triangle is obtuse
+        (20, -160, 200, 240, 50),
+        (130, 100, 350, 100, 200),  # the camera is more beside the lever than along it
+        (-130, 80, 350, -50, 120),
     ]
-    found = [(np.array([a * deg, b * deg, c * deg, d * mm]),) for a, b, c, d in postures]
-    for q in rng.uniform(LOW, HIGH, (12, 4)).round(3):
-        found.append((q,))
+    found = [(a * deg, b * deg, c * mm, d * mm, e * mm) for a, b, c, d, e in postures]
+    for first, second, one, ahead, beside in rng.uniform(-1, 1, (12, 5)).round(3).tolist():
+        lengths = 0.3 + 0.1 * one, 0.2 + 0.1 * ahead, 0.15 * beside
+        found.append((2.4 * first, 2.6 * second, *(round(x, 4) for x in lengths)))
     return found
 
 
-def form(result: Any, case: tuple[Floats]) -> Floats:
-    wanted = "wanted four numbers [q1, q2, q3, q4] (rad, rad, rad, m)"
+def camera(angles: Any, case: Case) -> Floats:
+    """The place of the camera in metres, for the angles of joints 1 and 2."""
+    q1, q2 = angles
+    *_, l1, along, side = case
+    lever = np.array([[np.cos(q1 + q2), -np.sin(q1 + q2)], [np.sin(q1 + q2), np.cos(q1 + q2)]])
+    place: Floats = l1 * np.array([np.cos(q1), np.sin(q1)]) + lever @ [along, side]
+    return place
+
+
+def form(result: Any, case: Case) -> Floats:
+    wanted = "wanted two angles [q1, q2] in radians"
     try:
         values = floats(result)
     except (TypeError, ValueError):
         raise ValueError(f"{wanted}, got {in_words(result)}") from None
-    if values.size != 4 or sum(n > 1 for n in values.shape) != 1:
+    if values.size != 2 or sum(n > 1 for n in values.shape) != 1:
         raise ValueError(f"{wanted}, got {in_words(result)}")
     return values.ravel()
 
 
-def law(case: tuple[Floats], yours: Floats, right: Floats) -> str | None:
-    (q,) = case
-    there, wanted = place(yours) / mm, place(q) / mm
+def law(case: Case, yours: Floats, right: Floats) -> str | None:
+    there, wanted = camera(yours, case) / mm, camera(case[:2], case) / mm
     if not np.linalg.norm(there - wanted) <= 1e-4:
-        at, is_at = apart(wanted[:2], there[:2])
+        at, is_at = apart(wanted, there)
         return (
-            f"the tool should stay at ({at}) mm; with your joints it stands at ({is_at}) mm"
+            f"the camera should stay at ({at}) mm; with your joints it is at ({is_at}) mm"
         ).translate(MINUS)
-    if not abs(wrapped(yours[1] + q[1])) <= 1e-6:
-        return f"joint 2 should stand at {shown(-q[1])}, the elbow on the other side"
-    turn, asked = float(yours[:3].sum()), float(q[:3].sum())
-    if not abs(turn - asked) <= 1e-6:
-        stays, is_at = apart(asked / deg, turn / deg)
-        return (f"the tool's angle q1 + q2 + q3 should stay {stays}°; yours is {is_at}°").translate(
-            MINUS
-        )
-    if not abs(yours[3] - q[3]) <= 1e-7:
-        stays, is_at = apart(q[3] / mm, yours[3] / mm)
-        return f"the stroke should stay {stays} mm; yours is {is_at} mm".translate(MINUS)
+    if not abs(wrapped(yours[1] - right[1])) <= 1e-6:
+        return f"joint 2 should be at {shown(wrapped(right[1]))}, with the elbow on the other side"
     return None
 
 
 def same(a: Floats, b: Floats) -> bool:
-    """Whether two results are equal: whole turns of joints 1 and 2 make no difference, but those of
-    the tool's angle do.
-    """
-    off = np.array([*wrapped((a - b)[:2]), (a - b)[:3].sum(), (a - b)[3]])
+    """Whether two results are equal; whole turns make no difference."""
+    off = wrapped(a - b)
     if np.isnan(off).any():  # NaN in the same joints, and the others are close
-        off = np.append(wrapped((a - b)[:3]), (a - b)[3])
         return bool((np.isnan(a) == np.isnan(b)).all() and np.nanmax(abs(off), initial=0) <= 1e-7)
     return bool((abs(off) <= 1e-7).all())

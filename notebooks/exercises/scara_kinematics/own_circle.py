@@ -5,34 +5,50 @@ from typing import Any
 
 import numpy as np
 
-from robokin import SCARA, ScaraPose, deg, explain, mm
+from robokin import SCARA, ClosedFormArm, ScaraPose, deg, explain, mm, scara_arm
 from robokin.course.exercises import in_words
 from robokin.course.slips import DEGREES, METRES
 from robokin.course.told import apart, one_number
 from robokin.course.variants import Numbers, dice
 
-from .shared import HIGH, LOW, MINUS, Floats
+from .shared import L0, L1, L2, MINUS, Floats, distance
 
-COUNT = 5
-UNITS = {"radius": ("mm", mm), "bearing": ("°", deg), "turns": ("whole turns", 1.0)}
+COUNT = 6
+UNITS = {
+    "stop": ("° (joint 2 stops at plus and minus this)", deg),
+    "radius": ("mm", mm),
+    "bearing": ("°", deg),
+    "turns": ("whole turns", 1.0),
+}
 AWAY = 25 * deg  # joint 2 has to stay this far from the stretched arm
 LEVEL = 100 * mm
 SAMPLES = 361
 SLACK = 1e-6
+CLOSE = 0.5 * mm  # of the radius of the hole
 Given = Mapping[str, Any]
 Fault = tuple[str, str]
 
 
 def given(who: Any) -> Numbers:
-    """A circle in a direction where joint 1 is close to its limit, and two turns of the tool."""
+    """A stop of joint 2, and a circle in a direction where joint 1 is close to its limit, with two
+    turns of the tool.
+    """
     roll = dice("scara_kinematics", who)
     side = 1 - 2 * roll.randrange(2)
     values = {
         "radius": (60 + 5 * roll.randrange(7)) * mm,
         "bearing": side * (100 + 5 * roll.randrange(6)) * deg,
         "turns": 2 - 4 * roll.randrange(2),
+        "stop": (125 + 5 * roll.randrange(5)) * deg,
     }
-    return Numbers(values, UNITS)
+    return Numbers({name: values[name] for name in UNITS}, UNITS)
+
+
+def own_arm(given: Given) -> ClosedFormArm:
+    """The SCARA whose joint 2 stops at the student's own angle."""
+    limits = SCARA.limits.copy()
+    limits[1] = -given["stop"], given["stop"]
+    return scara_arm("your SCARA", L0, L1, L2, limits)
 
 
 def own_circle(given: Given, distance: float, angle: float) -> ScaraPose:
@@ -45,14 +61,16 @@ def own_circle(given: Given, distance: float, angle: float) -> ScaraPose:
 
 
 def form(answer: Any, given: Given) -> dict[str, Any]:
-    """Distance and angle as floats, the elbow as +1 or -1."""
+    """Hole, distance and angle as floats, the elbow as +1 or -1."""
+    names = {"hole": "metres", "distance": "metres", "elbow": "+1 or -1", "angle": "radians"}
     if not isinstance(answer, Mapping):
-        raise ValueError(f"Wanted a dict with distance, elbow and angle, got {in_words(answer)}.")
-    missing = [key for key in ("distance", "elbow", "angle") if key not in answer]
+        told = "hole, distance, elbow and angle"
+        raise ValueError(f"Wanted a dict with {told}, got {in_words(answer)}.")
+    missing = [key for key in names if key not in answer]
     if missing:
         raise ValueError(f"Your dict has no {' and no '.join(repr(key) for key in missing)}.")
     design: dict[str, Any] = {}
-    for key, unit in (("distance", "metres"), ("elbow", "+1 or -1"), ("angle", "radians")):
+    for key, unit in names.items():
         try:
             value = one_number(answer[key])
         except (TypeError, ValueError):
@@ -69,81 +87,121 @@ def form(answer: Any, given: Given) -> dict[str, Any]:
 def joints(design: Given, given: Given) -> Floats:
     """The joint values (samples, 4) on the circle; q3 and the tool's angle are not wrapped."""
     targets = own_circle(given, design["distance"], design["angle"])
-    rows = SCARA.ik(targets)[:, SCARA.branch(int(design["elbow"]))]
+    rows = SCARA.ik(targets)[:, SCARA.branch(int(design["elbow"]))]  # limits make no difference
     q1, q2 = np.unwrap(rows[:, 0]), rows[:, 1]
     return np.stack([q1, q2, targets.angle - q1 - q2, rows[:, 3]], axis=-1)
 
 
-def past(q: Floats) -> Floats:
+def past(q: Floats, given: Given) -> Floats:
     """The most by which each joint exceeds its limits; negative: inside."""
-    over: Floats = np.maximum(q - HIGH, LOW - q).max(axis=0)
+    low, high = own_arm(given).limits.T
+    over: Floats = np.maximum(q - high, low - q).max(axis=0)
     return over
 
 
 def faults(design: Given, given: Given) -> list[Fault]:
-    """What is wrong with the reach, the limits of joints 1, 2 and 3, and the stretch of the arm."""
-    distance, angle = design["distance"], design["angle"]
-    if abs(distance) > 5:
-        name = "mm for m" if abs(distance) >= 60 else "cm for m"
-        return [(name, f"The distance is {distance:g} m. {METRES}")] * COUNT
+    """What is wrong with the hole, the reach, the limits of joints 1, 2 and 3, and the stretch of
+    the arm.
+    """
+    wrong = about_hole(design["hole"], given)
+    return [*([wrong] if wrong else []), *circle(design, given)]
+
+
+def about_hole(hole: float, given: Given) -> Fault | None:
+    stop = given["stop"]
+    right = distance(stop)
+    if abs(hole - right) <= CLOSE:
+        return None
+    named = (
+        (1000 * right, "mm for m", f"The hole is {hole:g} m. {METRES}"),
+        (L2 - L1, "the hole of an arm that folds", "50 mm are left when the arm folds completely."),
+        (
+            distance(np.pi - stop),
+            "the stop used as the angle inside the triangle",
+            "Joint 2 counts from the stretched arm: at your stop the angle inside the triangle is "
+            f"180° − {stop / deg:.0f}°.",
+        ),
+        (
+            distance(SCARA.limits[1, 1]),
+            "the hole of the lab's arm",
+            f"The lab's joint 2 stops at ±150°, yours at ±{stop / deg:.0f}°.",
+        ),
+    )
+    for value, name, says in named:
+        if abs(hole - value) <= CLOSE * value / right:
+            return name, f"{says} The hole has another radius."
+    says = f"At your stop of ±{stop / deg:.0f}° the tool is not {hole / mm:.1f} mm from joint 1."
+    return "another radius of the hole", says
+
+
+def circle(design: Given, given: Given) -> list[Fault]:
+    """What is wrong with the circle: five conditions."""
+    away, angle, count = design["distance"], design["angle"], COUNT - 1
+    if abs(away) > 5:
+        name = "mm for m" if abs(away) >= 60 else "cm for m"
+        return [(name, f"The distance is {away:g} m. {METRES}")] * count
     if abs(angle) > 8 * np.pi:
-        return [("degrees for radians", f"An angle of {angle / deg:.0f}°. {DEGREES}")] * COUNT
-    if distance < 0:
-        says = "A distance is not negative: the direction is given, it is your bearing."
-        return [("a negative distance", says)] * COUNT
-    targets = own_circle(given, distance, angle)
+        return [("degrees for radians", f"An angle of {angle / deg:.0f}°. {DEGREES}")] * count
+    if away < 0:
+        says = "A distance is not negative: your bearing already gives the direction."
+        return [("a negative distance", says)] * count
+    targets = own_circle(given, away, angle)
     q = joints(design, given)
     row = SCARA.branch(int(design["elbow"]))
     missing = np.isnan(SCARA.ik(targets)[:, row]).any(axis=-1)
     if missing.any():
         says = f"{missing.mean():.0%} of the circle is out of reach. "
         says += explain(SCARA, targets[int(missing.argmax())], row)
-        return [("out of reach", says)] * COUNT
-    away = np.linalg.norm(targets.position[:, :2], axis=-1) / mm
-    found = [joint_1(q, design, given), *joint_2(q, away.min(), away.max()), joint_3(q)]
+        return [("out of reach", says)] * count
+    from_joint_1 = np.linalg.norm(targets.position[:, :2], axis=-1) / mm
+    nearest, farthest = from_joint_1.min(), from_joint_1.max()
+    found = [joint_1(q, design, given), *joint_2(q, nearest, farthest, given), joint_3(q, given)]
     return [fault for fault in found if fault]
 
 
 def joint_1(q: Floats, design: Given, given: Given) -> Fault | None:
-    over = past(q)[0]
+    over = past(q, given)[0]
     if over <= SLACK:
         return None
-    says = f"Joint 1 passes its limit of ±{HIGH[0] / deg:.0f}° by {apart(over / deg, 0)[0]}°."
-    if past(joints({**design, "elbow": -design["elbow"]}, given))[0] > SLACK:
+    limit = SCARA.limits[0, 1] / deg
+    says = f"Joint 1 passes its limit of ±{limit:.0f}° by {apart(over / deg, 0)[0]}°."
+    if past(joints({**design, "elbow": -design["elbow"]}, given), given)[0] > SLACK:
         return "past a limit: joint 1", says
-    says += " The other elbow reaches the same places with another angle of joint 1."
+    says += " The other elbow reaches the same places with other angles of joint 1."
     return "the wrong elbow", says
 
 
-def joint_2(q: Floats, nearest: float, farthest: float) -> list[Fault]:
-    found, over, bent = [], past(q)[1], abs(q[:, 1]).min()
+def joint_2(q: Floats, nearest: float, farthest: float, given: Given) -> list[Fault]:
+    found, over, bent = [], past(q, given)[1], abs(q[:, 1]).min()
     if over > SLACK:
+        limit, most = given["stop"] / deg, apart(over / deg, 0)[0]
         says = (
-            f"Joint 2 passes its limit of ±{HIGH[1] / deg:.0f}° by {apart(over / deg, 0)[0]}°: "
-            f"the circle comes as near as {nearest:.1f} mm to joint 1, into the hole."
+            f"Joint 2 passes its limit of ±{limit:.0f}° by {most}°: the circle comes as close as "
+            f"{nearest:.1f} mm to joint 1, into the hole."
         )
         found.append(("past a limit: joint 2", says))
     if bent < AWAY - SLACK:
         near, asked = apart(bent / deg, AWAY / deg)
         says = (
-            f"Joint 2 comes as near as {near}° to the stretched arm, and {asked}° are asked for: "
-            f"the circle goes out to {farthest:.1f} mm."
+            f"Joint 2 comes as close as {near}° to the stretched arm, and the task asks for "
+            f"{asked}°: the circle goes out to {farthest:.1f} mm."
         )
-        found.append(("too near to the stretched arm", says))
+        found.append(("too close to the stretched arm", says))
     return found
 
 
-def joint_3(q: Floats) -> Fault | None:
-    over = past(q)[2]
+def joint_3(q: Floats, given: Given) -> Fault | None:
+    over = past(q, given)[2]
     if over <= SLACK:
         return None
-    low, high = q[:, 2].min(), q[:, 2].max()
+    low, high, limit = q[:, 2].min(), q[:, 2].max(), SCARA.limits[2, 1]
     says = (
-        f"Joint 3 runs from {low / deg:.1f}° to {high / deg:.1f}°; its limits are "
-        f"±{HIGH[2] / deg:.0f}°, and it passes them by {apart(over / deg, 0)[0]}°."
+        f"Joint 3 turns from {low / deg:.1f}° to {high / deg:.1f}°. Its limits are "
+        f"±{limit / deg:.0f}°, and it passes them by {apart(over / deg, 0)[0]}°."
     ).translate(MINUS)
     for turns, name in ((1, "A whole turn"), (2, "Two whole turns")):
-        if any(past(q + [0, 0, 2 * np.pi * k, 0])[2] <= SLACK for k in (-turns, turns)):
+        moved = (q + [0, 0, 2 * np.pi * k, 0] for k in (-turns, turns))
+        if any(past(each, given)[2] <= SLACK for each in moved):
             says += f" {name} more or less at the start {'is' if turns == 1 else 'are'} the same "
-            return f"joint 3 begins {name.lower()} off", f"{says}pose, and fit{'s' * (turns == 1)}."
+            return f"joint 3 starts {name.lower()} off", f"{says}pose, and fit{'s' * (turns == 1)}."
     return "past a limit: joint 3", says

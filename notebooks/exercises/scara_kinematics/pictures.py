@@ -43,7 +43,7 @@ def elbow_at(q1: float) -> Any:
 def p3_view() -> Any:
     fig = Sketch(
         "From above: the two elbows of one target are mirror images in the line from joint 1 to "
-        "the target. The first levers stand at the same angle on either side of that line.",
+        "the target. The first levers make the same angle with that line, on either side of it.",
         title="Mirror images in the line to the target",
     )
     target = MIRRORED
@@ -60,9 +60,9 @@ def p3_view() -> Any:
 def p4_view() -> Any:
     q2, corner, sine = sine_angles(SINE_AT)
     fig = Sketch(
-        "A target 130 mm from joint 1: with the right angle the second lever ends at the target, "
-        "with the one of the arcsine it ends beside it.",
-        title="The arcsine's arm (dashed) ends beside the target",
+        "A target 130 mm from joint 1. With the right angle the second lever ends at the target, "
+        "with the angle from the arcsine it ends next to it.",
+        title="With the arcsine (dashed) the arm misses the target",
     )
     for inside, dashed in ((corner, False), (sine, True)):
         joint_2 = elbow_at(-inside)
@@ -75,9 +75,10 @@ def p4_view() -> Any:
 
 def p5_view() -> Any:
     fig = Sketch(
-        "From above: a place behind the arm and both elbows. The first lever of elbow +1 stands "
-        "inside the stops of joint 1, that of elbow −1 (dashed) in the shaded sector beyond them.",
-        title="The shaded sector is closed to the first lever",
+        "From above: a place behind the arm and both elbows. The first lever of elbow +1 is "
+        "between the stops of joint 1, that of elbow −1 (dashed) is in the shaded sector beyond "
+        "them.",
+        title="The first lever cannot enter the shaded sector",
     )
     closed = np.linspace(HIGH[0], 2 * np.pi - HIGH[0], 40)
     x, y = 230 * np.cos(closed), 230 * np.sin(closed)
@@ -109,8 +110,8 @@ def p7_view() -> str:
 
 def p8_view() -> Any:
     fig = figure(
-        "Joint 3 along the circle for both elbows: that of elbow −1 begins "
-        "higher and ends beyond 400°.",
+        "Joint 3 along the circle for both elbows: with elbow −1 it starts at a larger angle and "
+        "ends beyond 400°.",
         height=3.4,
     )
     ax = fig.subplots()

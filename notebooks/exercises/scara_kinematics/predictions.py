@@ -79,7 +79,7 @@ def sine_angles(d: float) -> tuple[float, float, float]:
     """q2, the angle inside the triangle at joint 1, and that angle by the law of sines."""
     q2 = float(np.arccos((d**2 - L1**2 - L2**2) / (2 * L1 * L2)))
     sine = float(np.arcsin(np.clip(L2 * np.sin(q2) / d, -1, 1)))
-    return q2, corner(q2), sine
+    return q2, corner(L1, L2, q2), sine
 
 
 @cache
@@ -126,6 +126,7 @@ def p6() -> Mapping[str, Any]:
     }
     bends = np.linspace(-STOP, STOP, 2401)
     near = np.linalg.norm(place(np.stack([0 * bends, bends], axis=-1)), axis=-1).min() / mm
+    guesses["metres"] = distance(STOP)
     told = {"stop": STOP / deg, "bent": distance(100 * deg) / mm}
     return guesses | told | {"right": nearest(guesses, near)}
 

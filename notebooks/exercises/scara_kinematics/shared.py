@@ -20,15 +20,20 @@ def place(q: Any) -> Floats:
     return np.stack([x, y], axis=-1)
 
 
+def third(one: float, two: float, bend: float) -> float:
+    """The third side of a triangle with two sides, the second turned by `bend` from the first."""
+    return float(np.sqrt(one**2 + two**2 + 2 * one * two * np.cos(bend)))
+
+
+def corner(one: float, two: float, bend: float) -> float:
+    """The angle between the first and the third side by the law of cosines, which has no sign."""
+    d = third(one, two, bend)
+    return float(np.arccos(np.clip((one**2 + d**2 - two**2) / (2 * one * d), -1, 1)))
+
+
 def distance(q2: float) -> float:
     """The distance of the tool from joint 1."""
-    return float(np.sqrt(L1**2 + L2**2 + 2 * L1 * L2 * np.cos(q2)))
-
-
-def corner(q2: float) -> float:
-    """The angle inside the triangle by the law of cosines, which has no sign."""
-    d = distance(q2)
-    return float(np.arccos(np.clip((L1**2 + d**2 - L2**2) / (2 * L1 * d), -1, 1)))
+    return third(L1, L2, q2)
 
 
 def shown(x: float) -> str:

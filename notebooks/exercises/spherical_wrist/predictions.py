@@ -6,7 +6,7 @@ from typing import Any
 
 import numpy as np
 
-from robokin import ITMO6R, Transform, deg, distance_from_singularity, follow, lin, mm, quintic
+from robokin import ITMO6R, Transform, deg, distance_from_singularity, mm
 from robokin.units import wrapped
 
 from .shared import (
@@ -23,7 +23,6 @@ from .shared import (
     posture,
     rot,
     textbook,
-    tilted_line,
     trans,
     turned,
     zyz,
@@ -189,35 +188,34 @@ def p7() -> dict[str, Any]:
     return facts
 
 
-def joint4_speeds(miss: float) -> tuple[Floats, Floats]:
-    """Times, dense around the singular pose, and the speeds of joint 4 in °/s on the line of the
-    first screen, exact from the Jacobian.
-    """
-    t = np.concatenate([np.linspace(0, 4, 401), np.linspace(1.9, 2.1, 2001)])
-    t.sort()
-    law = quintic(duration=4)
+PLACES = np.linspace(-100, 100, 2001) * mm  # on the line of the first view
+
+
+def passed(miss: float) -> Floats:
+    """The postures (2001, 6) at PLACES of the line that passes the hit at this distance."""
     level = turned(90 * deg, Y) @ turned(180 * deg, Z)
-    beside = miss * np.array([0, -1, 1]) / np.sqrt(2)
-    start, goal = (np.array([400, e * 80, 200 + e * 80]) * mm + beside for e in (-1, 1))
-    poses = lin(Transform(level, start), Transform(level, goal), law(t))
-    rate = (law(t + 1e-6) - law(t - 1e-6)) / 2e-6
-    velocity = np.concatenate([goal - start, np.zeros(3)]) * rate[:, None]
-    q = ITMO6R.ik(poses)[:, ROW]
-    speeds = np.linalg.solve(ITMO6R.jacobian(q), velocity[..., None])[..., 0]
-    joint4: Floats = np.abs(speeds[:, 3]) / deg
-    return np.asarray(t, dtype=float), joint4
+    along, across = np.array([[0, 1, 1], [0, -1, 1]]) / np.sqrt(2)
+    origins = np.array([400, 0, 200]) * mm + PLACES[:, None] * along + miss * across
+    q: Floats = np.unwrap(ITMO6R.ik(Transform(level, origins))[:, ROW], axis=0)
+    return q
+
+
+def joint4_speeds(miss: float) -> Floats:
+    """The speeds (2001,) of joint 4 at PLACES in °/s, from the Jacobian; the tool has 100 mm/s."""
+    velocity = np.array([0, 1, 1, 0, 0, 0]) / np.sqrt(2) * 100 * mm
+    speeds: Floats = np.linalg.solve(ITMO6R.jacobian(passed(miss)), velocity)
+    return abs(speeds[:, 3]) / deg
 
 
 def fastest(miss: float) -> float:
-    """The greatest speed of joint 4 on the line of the first screen, °/s."""
-    return float(joint4_speeds(miss)[1].max())
+    """The greatest speed of joint 4 on the line, °/s."""
+    return float(joint4_speeds(miss).max())
 
 
 @cache
 def p8() -> dict[str, Any]:
     two, one = fastest(2 * mm), fastest(1 * mm)
-    ends = ITMO6R.ik(tilted_line(45 * deg, 2 * mm, 0, 0, np.linspace(0, 1, 2001)))
-    joint4 = follow(ITMO6R, ends, ROW)[:, 3]
+    joint4 = passed(2 * mm)[:, 3]
     guesses = {"half": two / 2, "root": np.sqrt(2) * two, "double": 2 * two, "four": 4 * two}
     names = {"half": "half as fast", "root": "the root of 2", "double": "twice as fast"}
     names["four"] = "four times as fast"

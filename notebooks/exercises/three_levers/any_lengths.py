@@ -87,8 +87,8 @@ def law(case: Case, yours: Any, wanted: Any) -> str | None:
             return None
         KO, KB = np.hypot(*point), third(lengths[1], lengths[2], alpha)
         return (
-            f"should be NaN: OB = {lengths[0]:g} m, KB = {KB:.3f} m and KO = {KO:.3f} m are no "
-            "triangle"
+            f"should be NaN: OB = {lengths[0]:g} m, KB = {KB:.3f} m and KO = {KO:.3f} m form "
+            "no triangle"
         )
     told = ", ".join(f"{x / deg:.2f}°" for x in wanted)
     if np.isnan(yours).any():
@@ -105,8 +105,8 @@ def law(case: Case, yours: Any, wanted: Any) -> str | None:
         return None
     told, yours_told = apart(wanted / deg, yours / deg, 2)
     return (
-        f"should be gamma, beta, alpha = ({told})°; yours, ({yours_told})°, reaches K, too, in "
-        "another posture"
+        f"should be gamma, beta, alpha = ({told})°; yours, ({yours_told})°, reaches K, too, but "
+        "it is another posture"
     )
 
 

@@ -195,14 +195,16 @@ def p8_view() -> Any:
 def p9_view() -> Any:
     lost, facts = 100 * np.sort(np.maximum(of.losses(), 0))[::-1], of.p9()
     fig, ax = panels(
-        "The loss of greed for each of the tours, sorted: a few high bars, and a long row of "
-        "hardly any loss.",
+        "How much more the greedy arm turns on each list, sorted: a few high bars, then a long "
+        "row with almost no difference.",
         height=3.2,
     )
     ax.bar(np.arange(1, len(lost) + 1), lost, width=1.0)
     ax.axhline(5, color=INK, lw=1, ls="--")
-    ax.set(xlabel="tours, sorted", ylabel="loss, %")
-    ax.set_title(f"{facts['count']} of {facts['tours']} tours lose more than 5 %")
+    ax.set(xlabel="lists of targets, sorted", ylabel="more turns, %")
+    ax.set_title(
+        f"On {facts['count']} of {facts['tours']} lists the greedy arm turns over 5 % more"
+    )
     return fig
 
 
@@ -210,7 +212,7 @@ def p10_view() -> Any:
     facts = of.p10()
     fig, ax = panels(
         f"The turns of all joints, added up over {facts['tasks']} tasks, for three rules. All "
-        "rise evenly; dice are the steepest, equal angles and least movement lie close together.",
+        "rise evenly; random choice is the steepest, equal angles and least movement are close.",
         height=3.4,
     )
     curves(
@@ -219,6 +221,6 @@ def p10_view() -> Any:
         {name: np.append(0, np.cumsum(each)) for name, each in of.turns().items()},
         xlabel="tasks done",
         ylabel="turns in all, °",
-        title=f"Dice turn the joints {facts['percent']:.0f} % more than the least movement",
+        title=f"Random choice turns the joints {facts['percent']:.0f} % more than least movement",
     )
     return fig

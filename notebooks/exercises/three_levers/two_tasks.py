@@ -111,7 +111,9 @@ def faults(alphas: Any, given: Given) -> list[Fault]:
         return [("deg twice", f"Your alphas are {told}; an alpha of 120° is 120 * deg.")] * COUNT
     found = of_a_plan(alphas, given)
     if found and not of_a_plan(alphas[::-1], given):
-        says = "Exchanged, your two alphas keep everything: the first belongs to the first target."
+        says = (
+            "Exchange your two alphas, and the plan holds: the first belongs to the first target."
+        )
         found.insert(0, ("the two alphas exchanged", says))
     return found
 
@@ -126,13 +128,13 @@ def of_a_plan(alphas: Any, given: Given) -> list[Fault]:
             if np.isnan(q).any()
         ]
         if np.isfinite(ARM.family(targets, alphas[::-1])).all():
-            gone.append("Exchanged, your two alphas would exist.")
+            gone.append("Exchange your two alphas, and both postures exist.")
         return [("alpha outside its range", " ".join(gone))] * COUNT
     for name, q in zip(NAMES, postures, strict=True):
         if not within(ARM, q).all():
             says = (
                 f"At the {name} target gamma would be {q[0] / deg:.2f}°; it may go from 0° to "
-                "180°. gamma grows with alpha: take a smaller alpha."
+                "180°. gamma grows with alpha, so choose a smaller alpha."
             )
             found.append((f"gamma past its limit at the {name} target", says))
     return found + beyond(*changes(given, postures), postures, given)
@@ -153,29 +155,29 @@ def beyond(one: Any, two: Any, postures: Any, given: Given) -> list[Fault]:
         turned, allowed = apart(S / deg, given["most"] / deg)
         says = (
             f"Together the joints turn by {one.sum() / deg:.1f}° and {two.sum() / deg:.1f}°, "
-            f"{turned}° in all; allowed are {allowed}°."
+            f"{turned}° in all; {allowed}° are allowed."
         )
         again = abs(postures[1] - start(given)).sum()
         if one.sum() + again <= given["most"] + EASE:
             says += (
-                f" Counted from where the arm stands now the second task would be "
-                f"{again / deg:.1f}°; it begins where the first one ended."
+                f" From the start posture the second task would be {again / deg:.1f}°, but it "
+                "begins where the first one ended."
             )
         greed = abs(postures - greedy(given))[:, 2].max() < 0.2 * deg
         if greed:
-            says += " This is the least for each task by itself."
+            says += " Each task by itself has the least movement: look ahead."
         found.append(("greed" if greed else "too much movement", says))
     if (longest := one.max() + two.max()) > given["longest"] + EASE:
         turned, allowed = apart(longest / deg, given["longest"] / deg)
         says = (
             f"The longest motors turn by {one.max() / deg:.1f}° and {two.max() / deg:.1f}°, "
-            f"{turned}° in all; allowed are {allowed}°."
+            f"{turned}° in all; {allowed}° are allowed."
         )
         busiest = (one + two).max()
         if busiest <= given["longest"] + EASE:
             says += (
-                f" The busiest motor of both tasks together turns by {busiest / deg:.1f}°, but "
-                "each task waits for its own longest motor."
+                f" No motor turns by more than {busiest / deg:.1f}° in both tasks together, but "
+                "each task takes as long as its own longest turn."
             )
         found.append(("too slow", says))
     return found

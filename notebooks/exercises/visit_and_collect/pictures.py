@@ -8,9 +8,9 @@ import numpy as np
 from robokin import deg, ptp
 from robokin.jobs.visit_collect import principal_postures
 from robokin.show import Sketch, bars, figure
-from robokin.show.palette import COMPARED, INK, REMARK, SOFT
+from robokin.show.palette import INK, SOFT
 
-from .predictions import DIP, LOW1, SPEEDS, p1, p2, p3, p6, p7, p8, p9
+from .predictions import DIP, LOW1, p1, p2, p3, p6, p7, p8
 from .shared import ARM, L1, L2
 
 SIDE: dict[str, Any] = {"unit": "m", "x": "distance from the axis", "y": "height"}
@@ -142,25 +142,3 @@ def p8_view() -> Any:
     sketch.point(DIP[1, [0, 2]], "goal", away=(1, 1))
     sketch.ax.margins(0.18)
     return sketch
-
-
-def p9_view() -> Any:
-    facts = p9()
-    even, uneven = facts["even"], facts["uneven"]
-    says = (
-        f"Objects missed of 200 over the belt speed. Evenly spaced: none up to {even} "
-        f"mm/s. Uneven: none up to {uneven} mm/s, then more and more."
-    )
-    fig = figure(says, height=3.4)
-    ax = fig.subplots()
-    for name, (color, line) in zip(("even", "uneven"), COMPARED, strict=False):
-        lost = facts["lost"][name]
-        ax.plot(SPEEDS, lost, line, color=color, lw=2.2, marker="o", ms=4)
-        higher = lost[-1] == max(facts["lost"]["even"][-1], facts["lost"]["uneven"][-1])
-        ax.text(142, lost[-1] + (3 if higher else -3), name, color=color, va="center")
-    ax.axvline(facts["rule"], color=REMARK, ls=":", lw=1.3)
-    ax.text(facts["rule"] - 1, 45, "c v / g = 1", color=REMARK, ha="right")
-    ax.set(xlabel="belt speed, mm/s", ylabel="objects missed of 200", xlim=(58, 150), ylim=(-2, 58))
-    ax.set_title(f"One arm: even objects up to {even} mm/s, uneven up to {uneven}")
-    fig.tight_layout()
-    return fig

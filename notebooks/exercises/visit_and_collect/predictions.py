@@ -1,4 +1,4 @@
-"""The facts behind the predictions. Objective 1: p1 to p3, p7; 2: p4, p8, p9; 3: p5, p6."""
+"""The facts behind the predictions. Objective 1: p1 to p3, p7; 2: p4, p8; 3: p5, p6."""
 
 from collections.abc import Mapping
 from dataclasses import replace
@@ -8,9 +8,8 @@ from typing import Any
 
 import numpy as np
 
-from robokin import deg, mm, within
+from robokin import deg, within
 from robokin.jobs import visit_collect as jobs
-from robokin.jobs.conveyor import serve, spaced
 
 from .shared import ARM, L1, L2, STOPS, Floats, costs, drawn, each_needs
 
@@ -145,54 +144,3 @@ def p8() -> dict[str, Any]:
     above = "never lower" if low >= end - 1e-9 else "about 0.05 m"
     right = above if low >= 0 else "under the floor"
     return {"low": low, "deep": abs(low), "b": end, "right": right}
-
-
-GAP = 150 * mm
-WINDOW = np.linspace(-400, 400, 161) * mm
-COUNT = 200
-SPEEDS = list(range(60, 141, 5))  # mm/s
-
-
-@cache
-def belt_ways() -> Floats:
-    """The time of one way from the bin to each place of the window: (161,) in s."""
-    places = np.stack([0 * WINDOW + 600 * mm, WINDOW, 0 * WINDOW + 50 * mm], axis=-1)
-    l1, l2 = 500 * mm, 400 * mm
-    q = jobs.principal_postures(l1, l2, np.vstack([np.array([150, -450, 250]) * mm, places]))
-    return np.asarray(15 / 8 * jobs.travel_time(q[0], q[1:], [2, 2, 2]))
-
-
-def missed(v: float, spread: float = 0.5, seed: int = 8, first_come: bool = False) -> int:
-    """How many of the objects one arm misses, at v mm/s."""
-    offsets = spaced(COUNT, GAP, spread, seed=seed)
-    (trips,) = serve(offsets, v * mm, WINDOW, belt_ways(), first_come=first_come)
-    return COUNT - len(trips.objects)
-
-
-def speed(lost: list[int]) -> int:
-    """The greatest speed up to which no object is lost."""
-    return SPEEDS[int(np.flatnonzero(np.cumsum(lost) == 0)[-1])]
-
-
-@cache
-def p9() -> Mapping[str, Any]:
-    lost = {
-        "uneven": [missed(v) for v in SPEEDS],
-        "even": [missed(v, spread=0) for v in SPEEDS],
-        "first": [missed(v, first_come=True) for v in SPEEDS],
-    }
-    most = {name: speed(counts) for name, counts in lost.items()}
-    others = [speed([missed(v, seed=seed) for v in SPEEDS]) for seed in (9, 10)]
-    share = most["uneven"] / most["even"]
-    fast = "more" if share > 1.02 else "the average counts"
-    slow = "about three quarters" if share > 0.6 else "half, by the least gap"
-    return {
-        **most,
-        "least": min(most["uneven"], *others),
-        "greatest": max(most["uneven"], *others),
-        "half": round(most["even"] / 2),
-        "rule": float(GAP / (2 * belt_ways().min()) / mm),
-        "lost": lost,
-        "at_even": lost["uneven"][SPEEDS.index(most["even"])],
-        "right": fast if share > 0.95 else slow,
-    }

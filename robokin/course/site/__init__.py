@@ -1,5 +1,6 @@
-"""The course as a web site, for readers without Python: labs, companions, glossary, notes for
-teachers and the reference of the package. Its arms and predictions work, and it fetches nothing.
+"""The course as a website for readers without Python: labs, companions, glossary, notes for
+teachers and the package reference. Its views and predictions work, and it loads nothing from other
+sites.
 
 Sphinx, myst-nb and furo build it from the stored outputs. `build` arranges their input; conf.py
 configures them.
@@ -21,16 +22,16 @@ import robokin
 
 HERE = Path(__file__).parent
 TEACHING = "teaching.ipynb"
-NOTES = "documents/teaching"  # the link in the line of index.md that is removed with the notes
-MARK = ".robokin-site"  # a file in the site's folder with the names of all files written there
+NOTES = "documents/teaching"  # the link to the notes; its line in index.md is removed with them
+MARK = ".robokin-site"  # a file in the site's folder that lists all files written there
 
 
 def build(folder: Path, teaching: bool = True) -> str:
     """Write the site into `folder`, with or without the notes for teachers, and return Sphinx's
     warnings.
 
-    ValueError: there are no labs or no Sphinx, Sphinx fails, or a file of yours is in the way; then
-    nothing is written.
+    Raises ValueError, and writes nothing, if there are no labs, Sphinx is not installed or fails,
+    or a file that is not part of a site is in the way.
     """
     missing = [name for name in ("sphinx", "myst_nb", "furo") if find_spec(name) is None]
     if missing:
@@ -67,7 +68,7 @@ def _notebooks(labs: Path) -> list[Path]:
 
 
 def _gather(labs: Path, notebooks: list[Path], source: Path) -> None:
-    """Gather the files next to this one, the notebooks, a list of the labs, an arm for the first
+    """Gather the files next to this module, the notebooks, a list of the labs, an arm for the first
     page, and a page for each module. If the notes for teachers are left out, the first page does
     not mention them.
     """
@@ -131,7 +132,7 @@ def _write(path: Path, text: str) -> None:
 
 
 def _run(source: Path, made: Path) -> str:
-    """Run Sphinx and return its warnings. ValueError: it fails."""
+    """Run Sphinx and return its warnings. Raises ValueError if it fails."""
     flags = ("-q", "-j", "auto", "-d", str(source.with_name("read")))
     paths = (str(HERE.parents[2]), os.environ.get("PYTHONPATH", ""))
     run = subprocess.run(
@@ -148,7 +149,7 @@ def _run(source: Path, made: Path) -> str:
 
 
 def _older(folder: Path) -> set[str]:
-    """The file names of an existing site. ValueError: something else is there."""
+    """The file names of an existing site. Raises ValueError if something else is there."""
     if (folder / MARK).is_file():
         names = (folder / MARK).read_text(encoding="utf-8").split("\n")
         return {name for name in names if name and ".." not in name and not name.startswith("/")}
@@ -158,7 +159,7 @@ def _older(folder: Path) -> set[str]:
 
 
 def _put(made: Path, folder: Path) -> None:
-    """Write each file whole, in place of the older site's file; other files are kept."""
+    """Write each file atomically, replacing the older site's file; other files are kept."""
     old = _older(folder)
     new = {p.relative_to(made).as_posix() for p in made.rglob("*") if p.is_file()}
     for name in sorted(new - old):

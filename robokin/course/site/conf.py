@@ -22,7 +22,7 @@ templates_path = ["templates"]
 
 nb_execution_mode = "off"
 nb_merge_streams = True
-nb_ipywidgets_js: dict[str, Any] = {}  # it would be fetched from the network
+nb_ipywidgets_js: dict[str, Any] = {}  # empty, since it would be loaded from the network
 nb_code_prompt_show = nb_code_prompt_hide = "code"
 myst_enable_extensions = ["dollarmath", "amsmath"]
 myst_heading_anchors = 3
@@ -94,7 +94,7 @@ def _own_name(app: Any, docname: str, source: list[str]) -> None:
     source[0] = source[0].replace("](#)", f"]({PurePosixPath(docname).name}.ipynb)")
     up = "../" * docname.count("/")
     source[0] = re.sub(
-        r"\]\((?:\.\./)+(robokin(?:/\w+){1,2})(?:/\w+)?\.py\)",  # a job's module -> its package
+        r"\]\((?:\.\./)+(robokin(?:/\w+){1,2})(?:/\w+)?\.py\)",  # link to the job's package
         lambda link: f"]({up}api/{link[1].replace('/', '.')}.rst)",
         source[0],
     )
@@ -119,7 +119,7 @@ def _to_the_section(app: Any, doctree: nodes.document, docname: str) -> None:
 
 def _foldable(app: Any, doctree: nodes.document, docname: str) -> None:
     for code in list(doctree.findall(nodes.container)):
-        hidden = not isinstance(code.parent, nodes.container)  # in a node of myst-nb for `details`
+        hidden = not isinstance(code.parent, nodes.container)  # myst-nb puts it into `details`
         if code.get("nb_element") == "cell_code_source" and not hidden:
             opened = nodes.raw("", OPENED, format="html")
             closed = nodes.raw("", "</details>", format="html")
@@ -159,8 +159,8 @@ def _as_it_is(app: Any, what: str, name: str, thing: Any, options: Any, lines: l
 
 
 def _entries(block: str) -> list[tuple[str, str]]:
-    """The names and meanings in a block that is a list of them; none if it is something else. A
-    regular expression for the whole block would take hours for a block that is nearly a list.
+    """Return the names and meanings if a block is a list of them, otherwise an empty list. A single
+    regular expression would take hours for a block that is almost such a list.
     """
     found: list[tuple[str, str]] = []
     for line in block.splitlines():

@@ -6,7 +6,7 @@
   const narrow = matchMedia("screen and (max-width: 699.98px)");
   /** @type {WeakMap<HTMLDetailsElement, boolean>} */
   const left = new WeakMap(); // cell -> whether it was open
-  // A live list of the cells: to look at every new node of the page would block a slow phone.
+  // A live list of the cells: checking every new node on the page would block a slow phone.
   const cells = /** @type {HTMLCollectionOf<HTMLDetailsElement>} */ (
     document.getElementsByClassName("rk-code")
   );

@@ -7,7 +7,7 @@ from ..._validate import floats, short
 from ...arms.planar import ThreeLeverArm
 from ...units import deg
 
-SLACK = 1e-9  # an angle past a limit by no more than this is a rounding error
+SLACK = 1e-9  # rad; an excess over a limit of no more than this counts as a rounding error
 FARTHEST = 1e9  # rad or m; larger floats are too coarse for angles and positions
 
 

@@ -1,5 +1,5 @@
-"""Measurements of how near the levers come to the obstacle, and of its location; `planner` decides
-what is safe.
+"""Measure how near the levers come to the obstacle, and locate the obstacle. `planner` decides what
+is safe.
 """
 
 from collections.abc import Callable
@@ -15,7 +15,7 @@ from .arguments import read_angles, read_obstacles, read_path, read_point, read_
 LEVERS = ("OB", "BA", "AK")
 TOLERANCE = 1e-6  # accuracy of a clearance, in lever lengths
 CLOSE = 1e-9  # lever lengths; `keeps` does not distinguish distances that differ by less than this
-# greatest number of motion pieces, or grid postures, in one call, which then takes about 1 s
+# maximum number of motion pieces, or of grid postures, in one call, which then takes about 1 s
 WORK = 1_000_000
 PORTION = 50_000  # pieces measured at a time, to limit memory
 
@@ -26,13 +26,13 @@ PORTION = 50_000  # pieces measured at a time, to limit memory
 def in_quadrilateral(
     arm: ThreeLeverArm, q0: ArrayLike, q1: ArrayLike, H: ArrayLike
 ) -> dict[str, Bools]:
-    """Whether H (..., 2) lies in the quadrilaterals between the levers before and after the motion
-    from q0 to q1.
+    """Return whether H (..., 2) lies in the quadrilaterals between the levers before and after the
+    motion from q0 to q1.
 
-    Returns a dict: "AK" for A K K1 A1, "BA" for B A A1 B1, each bool (...). The document tests only
-    the first one, and its inequalities are correct for its own drawing but not for most others
-    (errata S3-j, S3-k). So we count the sides that a ray from H crosses. The area that the levers
-    sweep does not have straight sides: see `swept`.
+    The result has the keys "AK", for A K K1 A1, and "BA", for B A A1 B1, each with a bool array
+    (...). The document tests only the first quadrilateral, and its inequalities are correct for its
+    own drawing but not for most others (errata S3-j, S3-k). We therefore count the sides that a ray
+    from H crosses. The area that the levers sweep does not have straight sides: see `swept`.
     """
     instance(arm, ThreeLeverArm, "arm")
     q0, q1, H = read_posture(q0, "q0"), read_posture(q1, "q1"), read_points(H, "H")
@@ -43,7 +43,7 @@ def in_quadrilateral(
 
 
 def swept(arm: ThreeLeverArm, q0: ArrayLike, q1: ArrayLike, H: ArrayLike) -> dict[str, bool]:
-    """Which levers actually pass over H (2,) on the motion from q0 to q1: dict of lever -> bool."""
+    """Return, for each lever, whether it passes over H (2,) on the motion from q0 to q1."""
     instance(arm, ThreeLeverArm, "arm")
     q0, q1, H = read_posture(q0, "q0"), read_posture(q1, "q1"), read_point(H, "H")
     warn_if_degrees(q0, "q0", posture=1)
@@ -58,7 +58,7 @@ def locate(P: ArrayLike, Q: ArrayLike, from_P: float, from_Q: float) -> Floats:
 
     The obstacle is the elbow of a two-link arm (`two_link`) with base P and tip Q whose links have
     these lengths: row 0 is to the right of the line from P to Q, row 1 to the left. A third
-    distance would decide between them. ValueError: P and Q coincide.
+    distance would decide between them. Raises ValueError if P and Q coincide.
     """
     P, Q = read_point(P, "P"), read_point(Q, "Q")
     if (P == Q).all():
@@ -83,13 +83,13 @@ def distances(arm: ThreeLeverArm, q: ArrayLike, H: ArrayLike) -> Floats:
 
 
 def clearance(arm: ThreeLeverArm, path: ArrayLike, H: ArrayLike) -> Floats:
-    """The least distance of each lever from H along a path (k, 3): (k - 1, 3), one row for each
+    """The smallest distance of each lever from H along a path (k, 3): (k - 1, 3), one row for each
     part. H is one obstacle (2,) or several (m, 2), of which the nearest counts.
 
-    This is a bound and not a sample: the arm never comes nearer, and somewhere it comes this near,
-    within `TOLERANCE` lever lengths. It is 0 where a lever passes over H. The function bisects the
-    pieces that could still contain a smaller distance. ValueError: a path that needs more than
-    `WORK` pieces.
+    The result is a proven bound, not the minimum of samples: the arm never comes nearer, and
+    somewhere it comes this near, to within `TOLERANCE` lever lengths. The distance is 0 where a
+    lever passes over H. The function bisects the pieces of the path that could still contain a
+    smaller distance. Raises ValueError if the path needs more than `WORK` pieces.
     """
     instance(arm, ThreeLeverArm, "arm")
     path, H = read_path(path), read_obstacles(H, "H")
@@ -98,12 +98,13 @@ def clearance(arm: ThreeLeverArm, path: ArrayLike, H: ArrayLike) -> Floats:
 
 
 def keeps(arm: ThreeLeverArm, a: ArrayLike, b: ArrayLike, H: ArrayLike, distance: float) -> Bools:
-    """Whether all levers keep this distance (metres) from H, one obstacle (2,) or several (m, 2),
-    on the motions from postures a (..., 3) to b (..., 3): bool (...).
+    """Return whether all levers stay at least this distance (in metres) away from H, one obstacle
+    (2,) or several (m, 2), on the motions from postures a (..., 3) to b (..., 3): bool (...).
 
-    It is as reliable as `clearance` and faster, since it stops measuring a motion at the first
-    piece that is too near. A motion that exceeds the distance by less than 1e-9 of a lever's length
-    may count as too near. ValueError: motions that need more than `WORK` pieces.
+    This function is as reliable as `clearance` and faster, since it stops measuring a motion at the
+    first piece that is too near. A motion whose clearance exceeds the distance by less than 1e-9 of
+    a lever's length may count as too near. Raises ValueError if the motions need more than `WORK`
+    pieces.
     """
     instance(arm, ThreeLeverArm, "arm")
     a, b = read_angles(a, "a"), read_angles(b, "b")
@@ -127,8 +128,8 @@ def lever_distances(arm: ThreeLeverArm, q: Floats, H: Floats) -> Floats:
 def motion_clearances(arm: ThreeLeverArm, a: Floats, b: Floats, H: Floats) -> Floats:
     """`clearance` for n motions from postures a (n, 3) to b (n, 3): (n, 3).
 
-    H is (m, 1, 2) for m fixed obstacles, or (2, m, n, 2) for their places at the start and at the
-    end of each motion, between which they move at constant velocity.
+    H is (m, 1, 2) for m fixed obstacles, or (2, m, n, 2) for the positions of m moving obstacles at
+    the start and at the end of each motion; in between, they move at constant velocity.
     """
     least, tolerance = np.full(a.shape, np.inf), TOLERANCE * arm.lever
 
@@ -150,7 +151,7 @@ def motions_keep(arm: ThreeLeverArm, a: Floats, b: Floats, H: Floats, distance: 
 
     def halve(part: Ints, here: Floats, bound: Floats) -> Bools:
         doubtful = bound < distance
-        # a distance that cannot be told from one that is too small counts as too near
+        # a distance that cannot be distinguished from one that is too small counts as too near
         near = (here < distance) | (doubtful & (here - bound < CLOSE * arm.lever))
         good[part[near.any(axis=0)]] = False
         return good[part] & doubtful.any(axis=0)
@@ -172,7 +173,7 @@ def _measure(
     """Measure pieces of the motions a -> b (n, 3), beginning with whole motions, and bisect those
     for which `halve(part, here, bound)` is true. Its arguments are the index of the motion (k,),
     the distances of the levers at one end of the piece (3, k), and their lower bounds on the piece.
-    With several obstacles each motion is measured for each of them.
+    If there are several obstacles, each motion is measured for each of them.
     """
     n, m = len(a), H.shape[-3]
     H = np.broadcast_to(H, (2, m, n, 2)).reshape(2, -1, 2)
@@ -200,14 +201,14 @@ def _measure(
 def _bounds(
     arm: ThreeLeverArm, a: Floats, b: Floats, ends: Floats, H: Floats
 ) -> tuple[Floats, Floats]:
-    """For pieces of the motions a -> b (3, n) between two `ends` (2, n), and an obstacle that moves
-    from H[0] to H[1] (2, n, 2) during the motion: the smaller of the distances (3, n) at the ends,
-    and lower bounds for the whole piece.
+    """Return the smaller of the distances (3, n) at the two ends of a piece, and lower bounds for
+    the whole piece. The pieces are parts of the motions a -> b (3, n) between two `ends` (2, n),
+    and the obstacle moves from H[0] to H[1] (2, n, 2) during the motion.
 
-    In the frame of a lever the obstacle moves almost straight from one place to another: it leaves
-    the line by at most an eighth of its greatest acceleration, with the piece as the unit of time.
-    Along that line the distance from the lever is a convex function, so it lies above its tangents
-    at both ends.
+    In the frame of a lever, the obstacle moves almost on a straight line from one place to another:
+    it deviates from the line by at most an eighth of its maximum acceleration, if the piece takes
+    one unit of time. Along the line, the distance from the lever is a convex function, so it lies
+    above its tangents at both ends.
     """
     change, (OB, BA, _) = b - a, arm.levers
     positions = H[0] + ends[..., None] * (H[1] - H[0])
@@ -248,8 +249,8 @@ def _seen(arm: ThreeLeverArm, q: Floats, H: Floats) -> tuple[Floats, Floats, Flo
 
 
 def _inside(corners: Floats, point: Floats) -> Bools:
-    """The even-odd rule: corners (n, 2), points (..., 2) -> bool (...). A point on a side is
-    inside.
+    """Return whether points (..., 2) are inside a polygon with the corners (n, 2), by the even-odd
+    rule: bool (...). A point on a side counts as inside.
     """
     crossings, on_side = np.zeros(point.shape[:-1]), np.zeros(point.shape[:-1], dtype=bool)
     for (x0, y0), (x1, y1) in zip(corners, np.roll(corners, -1, axis=0), strict=True):

@@ -1,8 +1,8 @@
-"""The choice of a safe plan, from the distances that `collision` measures. This module decides for
-a direct motion and for a path through via points; `posture_grid` decides for a search.
+"""Choose a safe plan, based on the distances that `collision` measures. This module checks direct
+motions and paths through via points; `posture_grid` checks the path that a search finds.
 
 This is the control system of source 003: it plans the direct motion, a path through two via points,
-or a search.
+or a path found by a search.
 """
 
 from contextlib import suppress
@@ -21,7 +21,7 @@ from .posture_grid import STEP, way_round
 
 WAYS = ("direct", "via points", "wait", "search", "none")
 # Radii of the circles around H on which via points are tried, in lever lengths. With the document's
-# radius, 1/7, the path comes nearer than 1/7 to H; with a larger one it may keep that distance.
+# radius, 1/7, the path comes nearer than 1/7 to H; with a larger radius, it may stay that far away.
 CIRCLES = (1 / 7, 0.16, 0.18, 0.20, 0.225, 0.25)
 
 
@@ -33,8 +33,8 @@ def via_points(K: ArrayLike, K1: ArrayLike, H: ArrayLike, radius: float) -> Floa
     KH and K1H, on the side of the base. Source: 003, III.3.2, figure 26.
 
     The printed formulas (40), (41) and table 6 swap two legs: their points lie on the circle, but
-    not on the perpendiculars, and on either side (errata S3-m). ValueError: H coincides with K or
-    K1, so that a direction is undefined.
+    not on the perpendiculars, and can be on either side (errata S3-m). Raises ValueError if H
+    coincides with K or K1, since a direction is then undefined.
     """
     K, K1, H = read_point(K, "K"), read_point(K1, "K1"), read_point(H, "H")
     radius = length(radius, "radius")
@@ -50,8 +50,8 @@ def via_path(
     radius: float | None = None,
     limited: bool = True,
 ) -> Floats:
-    """The path K - K2 - K3 - K1 with the least movement on each part: (4, 3), NaN from the first
-    point that is out of reach. The radius is L/7 by default. Source: 003, IV.
+    """The path K - K2 - K3 - K1 with the least movement on each part: (4, 3), with NaN from the
+    first point that is out of reach. The radius is L/7 by default. Source: 003, IV.
 
     A path through K2 and K3 guarantees nothing about the motion between them, nor about the levers
     (errata S3-n): see `clearance`.
@@ -74,16 +74,16 @@ class Plan(Sealed):
 
     way        "direct", "via points", "search", or "none"; also "wait" if the obstacle moves
     words      sentences that describe the result
-    path       (k, 3) postures, beginning with the start; (1, 3) if no path was found and the
-               arm does not move
-    clearance  (k - 1, 3) least distance of the levers OB, BA, AK from the obstacle on each part;
+    path       (k, 3) postures, beginning with the start; (1, 3) if no path was found and the arm
+               does not move
+    clearance  (k - 1, 3) smallest distance of the levers OB, BA, AK from the obstacle on each part;
                inf without an obstacle
     least      S of the direct motion in radians, a lower bound for all paths; NaN if the target is
                out of reach
     radius     radius of the circle around the obstacle on which the via points lie, in metres; NaN
-               for any other way
+               for all other ways
 
-    Arrays are read-only copies. ValueError: parts that do not match.
+    Arrays are read-only copies. Raises ValueError if the parts do not match.
     """
 
     way: str
@@ -152,15 +152,15 @@ def plan(
     """The control system of source 003 (figure 33): plan from the current posture (3,) to the
     target, past the obstacle.
 
-    All levers keep `distance` (metres; L/7 by default) from the obstacle along the whole path, or
-    the plan says that none was found. It tries in this order: the direct motion with the least
-    movement; the document's via points K2, K3 on the smallest circle whose path keeps the distance
-    (its radius is the distance or L/7, whichever is greater, or a greater one of `CIRCLES`); a
-    search among postures. Angles stay within 0 to 180 degrees. ValueError: a posture outside these
-    limits.
+    Along the whole path, all levers stay at least `distance` (in metres; L/7 by default) away from
+    the obstacle, or the plan says that no such path was found. The ways are tried in this order:
+    the direct motion with the least movement; the document's via points K2, K3 on the smallest
+    circle for which the path keeps the distance (its radius is the distance or L/7, whichever is
+    greater, or a greater one from `CIRCLES`); a search among postures. Angles stay between 0 and
+    180 degrees. Raises ValueError if the posture is outside these limits.
 
-    The path keeps clear of all obstacles (m, 2); the via points lie around the first one that is in
-    the way.
+    With several obstacles (m, 2), the path keeps clear of all of them; the via points lie around
+    the first one that is in the way.
     """
     instance(arm, ThreeLeverArm, "arm")
     start, K1 = read_start(arm, posture, "posture"), read_point(target, "target")
@@ -200,7 +200,7 @@ def plan(
 
 def along(path: ArrayLike, s: ArrayLike) -> Floats:
     """Postures on a path (k, 3) at the fractions s (...) of its S, from 0 to 1: (..., 3), for
-    figures and players. For s outside 0 to 1 it returns the ends of the path.
+    figures and players. For s outside 0 to 1, the result is an end of the path.
     """
     path, s = read_path(path), np.clip(floats(s, "s"), 0, 1)
     S = np.concatenate([[0.0], abs(np.diff(path, axis=0)).sum(axis=-1).cumsum()])
@@ -216,7 +216,7 @@ def no_plan(start: Floats, words: str, least: float = np.nan) -> Plan:
 
 
 def _too_near(arm: ThreeLeverArm, start: Floats, K1: Floats, H: Floats, distance: float) -> str:
-    """Say in a sentence why no path can keep the distance; "" if a path could."""
+    """Return a sentence that says why no path can keep the distance, or "" if a path could."""
     O_H, K1_H = np.hypot(*H[:, 0].T), np.hypot(*(K1 - H[:, 0]).T)
     q_H = lever_distances(arm, start, H)[:, 0]  # (m, 3)
     if O_H.min() < distance:
@@ -236,8 +236,8 @@ def _too_near(arm: ThreeLeverArm, start: Floats, K1: Floats, H: Floats, distance
 def _by_via_points(
     arm: ThreeLeverArm, direct: Floats, K1: Floats, H: Floats, distance: float
 ) -> tuple[tuple[Floats, Floats, float] | None, str]:
-    """The path through via points on the first circle that keeps the distance, with its clearance
-    and the radius, or None; also the sentence about it for the plan.
+    """Return the path through via points on the first circle for which it keeps the distance, with
+    its clearance and the radius, or None; also return the sentence about it for the plan.
     """
     first = _in_the_way(arm, direct, H, distance)
     radii = np.array([each for each in CIRCLES if each * arm.lever > distance]) * arm.lever
@@ -264,7 +264,7 @@ def _named(H: Floats, which: int) -> str:
 
 def _nearest(arm: ThreeLeverArm, clear: Floats, H: Floats) -> str:
     least = clear.min(axis=0)
-    # two levers are equally near at their common joint: take the first
+    # if two levers are equally near, at their common joint, take the first
     lever = LEVERS[(least <= least.min() + TOLERANCE * arm.lever).argmax()]
     one = len(H) == 1
     if not least.min():
@@ -274,8 +274,8 @@ def _nearest(arm: ThreeLeverArm, clear: Floats, H: Floats) -> str:
 
 
 def _in_the_way(arm: ThreeLeverArm, direct: Floats, H: Floats, distance: float) -> int:
-    """The index of the obstacle that is first in the way on the path, or of the nearest one if none
-    is. It is found by sampling, so it is not guaranteed.
+    """The index of the first obstacle that blocks the path, or of the nearest one if none does. The
+    path is sampled, so an obstacle may be missed.
     """
     near = lever_distances(arm, along(direct, np.linspace(0, 1, 100)), H).min(axis=-1)  # (m, 100)
     first = np.where((near < distance).any(axis=1), (near < distance).argmax(axis=1), near.shape[1])

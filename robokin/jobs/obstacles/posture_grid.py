@@ -1,10 +1,10 @@
 """The search for a path past obstacles in a grid of postures: axes, clearances, breadth-first
 search and backtracking.
 
-A search proceeds in ticks. At each tick at most one joint moves, by one step. An array over the
-grid holds the fewest steps in which each posture is reached by that tick. It has one more element
-than the grid at the end of each axis, so that a step past either end leads to a posture that is
-never free.
+A search proceeds in ticks. At each tick, at most one joint moves, by one step. An array over the
+grid contains the smallest number of steps in which each posture can be reached by that tick. At the
+end of each axis it has one more element than the grid, so that a step beyond either end leads to a
+posture that is never free.
 """
 
 from collections.abc import Sequence
@@ -24,8 +24,8 @@ Node: TypeAlias = tuple[int, ...]
 
 STEP = 5 * deg  # step of the grid of postures in `way_round`
 # Margins added to the clearance for the postures of the grid, in lever lengths, tried in this
-# order. One step of the first joint can move the gripper by 0.26 lever lengths: with a small
-# clearance only the last margin keeps steps from jumping over H.
+# order. One step of the first joint can move the gripper by 0.26 lever lengths, so for a small
+# clearance only the last margin prevents steps from jumping over H.
 MARGINS = (0.005, 0.03, 0.13)
 NEVER = 10_000  # more steps than any path through the grid has
 INSIDE = (slice(-1),) * 3  # the grid without the extra elements
@@ -36,15 +36,16 @@ MOVES = ((0, 0), (0, -1), (0, 1), (1, -1), (1, 1), (2, -1), (2, 1))
 def way_round(
     arm: ThreeLeverArm, q0: ArrayLike, target: ArrayLike, H: ArrayLike, distance: float
 ) -> Floats | None:
-    """A path (k, 3) from posture q0 to the target with little movement, on which all levers keep
-    the distance from H, one obstacle (2,) or several (m, 2); None if none is found.
+    """A path (k, 3) from posture q0 to the target with little movement, on which all levers stay at
+    least `distance` away from H, one obstacle (2,) or several (m, 2). It is None if no path is
+    found.
 
     The postures (gamma, beta, alpha) fill a cube with sides of 180 degrees, in which the postures
-    at the target form a curve, its `family`. From q0 a breadth-first search spreads through the
+    at the target form a curve, its `family`. From q0, a breadth-first search spreads through the
     grid of postures that keep the distance, one step of one joint at a time, so that it reaches
-    each with the least S. We backtrack from the posture on the curve with the least S and then
-    remove unnecessary corners. `keeps` checks every part of the path. The grid step is 5 degrees,
-    so a narrower passage may be missed. ValueError: a posture q0 outside the limits.
+    each posture with the least S. We backtrack from the posture on the curve with the least S and
+    then remove unnecessary corners. `keeps` checks every part of the path. The grid step is 5
+    degrees, so a narrower passage may be missed. Raises ValueError if q0 is outside the limits.
     """
     instance(arm, ThreeLeverArm, "arm")
     q0, K1, H = read_start(arm, q0, "q0"), read_point(target, "target"), read_obstacles(H, "H")
@@ -83,8 +84,8 @@ def target_curve(arm: ThreeLeverArm, K1: Floats, count: int | None = None) -> Fl
 
 
 def grid_axes(arm: ThreeLeverArm, q: Floats) -> tuple[list[Floats], Node]:
-    """For each joint the angles of the grid, in equal steps from its angle in the posture q (3,)
-    towards both limits, and the limits; also the grid node of q.
+    """The angles of the grid for each joint: equal steps from its angle in the posture q (3,)
+    towards both limits, and the limits themselves. Also return the grid node of q.
     """
     axes = []
     for value, (low, high) in zip(q, arm.limits, strict=True):
@@ -96,8 +97,8 @@ def grid_axes(arm: ThreeLeverArm, q: Floats) -> tuple[list[Floats], Node]:
 
 
 def grid_room(arm: ThreeLeverArm, axes: list[Floats], H: Floats) -> Floats:
-    """The least distance of the obstacles H (m, 2) from the levers in each posture of the grid with
-    these axes.
+    """The smallest distance of the obstacles H (m, 2) from the levers in each posture of the grid
+    with these axes.
 
     Lever OB depends on gamma only, BA on two of the angles, AK on all three: each is measured on
     the smallest possible grid, with complex numbers.
@@ -117,7 +118,7 @@ def grid_room(arm: ThreeLeverArm, axes: list[Floats], H: Floats) -> Floats:
 
 
 def grid_postures(axes: list[Floats], nodes: Ints) -> Floats:
-    """Postures (n, 3) of nodes (n, 3)."""
+    """The postures (n, 3) at nodes (n, 3)."""
     return np.stack([axis[i] for axis, i in zip(axes, nodes.T, strict=True)], axis=-1)
 
 
@@ -134,19 +135,19 @@ def blocked(allowed: Bools, size: Sequence[int]) -> Steps:
 
 
 def at_start(size: Sequence[int], start: Node) -> Steps:
-    """The fewest steps to each posture before the first tick."""
+    """The smallest number of steps to each posture before the first tick."""
     steps = np.full(np.add(size, 1), NEVER, dtype=np.int16)
     steps[start] = 0
     return steps
 
 
 def spread(steps: Steps, closed: Steps, closed_moves: Sequence[Steps] | None = None) -> Steps:
-    """The fewest steps to each posture one tick later, when at most one joint has moved by one
-    step.
+    """The smallest number of steps to each posture one tick later, when at most one joint has moved
+    by one step.
 
     closed        the array from `blocked` for that tick
-    closed_moves  for each joint: the postures from which the step to the next one is `blocked`, in
-                  both directions; if omitted, no step is blocked
+    closed_moves  for each joint, an array of the postures from which the step to the next one is
+                  `blocked` (in both directions); if omitted, no step is blocked
     """
     flat = steps.reshape(-1)
     later, more = flat.copy(), flat + np.int16(1)
@@ -166,10 +167,10 @@ def breadth_first(
     free_moves: Sequence[Bools] | None = None,
     goals: Bools | None = None,
 ) -> Steps:
-    """The fewest steps from the start to each free posture of the grid, `NEVER` where there is no
-    path. With goals, the search ends at the first of them.
+    """The smallest number of steps from the start to each free posture of the grid, or `NEVER`
+    where there is no path. If goals are given, the search ends when it reaches one of them.
 
-    free_moves  for each joint: whether its step from each posture to the next one is free
+    free_moves  for each joint, whether its step from each posture to the next one is free
     """
     size = free.shape
     closed, steps = blocked(free, size), at_start(size, start)
@@ -184,11 +185,12 @@ def breadth_first(
 
 
 def way_back(steps: Sequence[Steps], node: Node, room: Floats | None = None) -> Ints:
-    """The nodes (ticks, 3) of a path with the fewest steps to the node at the last tick. Among
-    several, it prefers the one with more clearance at each tick.
+    """The nodes (ticks, 3) of a path with the smallest number of steps to the node at the last
+    tick. If there are several, the one with more clearance at each tick is preferred.
 
     steps  an array for each tick. If the obstacle does not move, the last array can be used for
-           every tick: a posture that takes more steps than there were ticks is not reached yet.
+           every tick, since a posture that takes more steps than there have been ticks counts as
+           not yet reached.
     """
     back = [node]
     for tick in range(len(steps) - 2, -1, -1):
@@ -224,8 +226,8 @@ def arrivals(axes: list[Floats], goals: Floats, steps: Steps) -> tuple[Ints, Int
 
 def shortcuts(arm: ThreeLeverArm, path: Floats, H: Floats, distance: float) -> list[int] | None:
     """Go from each posture straight to the farthest one that can be reached directly. Return the
-    indices of the remaining postures, or None if not even the next one can be reached. H may be (m,
-    k, 2), its place at each posture.
+    indices of the remaining postures, or None if not even the next one can be reached. H may also
+    be (m, k, 2), the positions of moving obstacles at each posture.
     """
     kept = [0]
     while kept[-1] < len(path) - 1:
@@ -246,12 +248,13 @@ def shortcuts(arm: ThreeLeverArm, path: Floats, H: Floats, distance: float) -> l
 def coarse_search(
     arm: ThreeLeverArm, q0: Floats, K1: Floats, H: Floats, distance: float, step: float
 ) -> tuple[Steps, Bools, Floats]:
-    """A search from q0 to K1, past the obstacle H (2,), in a grid over all limits in which every
-    step is proven to keep the distance, as in lab 10, section 6.
+    """Search for a path from q0 to K1, past the obstacle H (2,), in a grid over the full range of
+    all joints. Every step is proven to keep the distance, as in lab 10, section 6.
 
-    Returns (steps, free, curve): the fewest steps to each posture (n, n, n), `NEVER` where there is
-    no path or where the search ended first, on the target's curve; the postures that keep the
-    distance; the curve (31, 3), or (0, 3).
+    Returns (steps, free, curve). `steps` (n, n, n) is the smallest number of steps to each posture,
+    or `NEVER` where there is no path or the search ended earlier, on the target's curve. `free` (n,
+    n, n) is True for the postures that keep the distance. `curve` (31, 3) is the target's curve; it
+    is (0, 3) if the target is out of reach.
     """
     axes = [np.arange(low, high + step / 2, step) for low, high in arm.limits]
     grid = np.stack(np.meshgrid(*axes, indexing="ij"), axis=-1)
@@ -270,7 +273,9 @@ def coarse_search(
 def _proven_moves(
     arm: ThreeLeverArm, grid: Floats, room: Floats, H: Floats, distance: float, step: float
 ) -> list[Bools]:
-    """For each joint: whether its step from each posture to the next one keeps the distance."""
+    """Return, for each joint, whether its step from each posture to the next one keeps the
+    distance.
+    """
     # length of the arm beyond a joint: no point moves farther than this times the rotation
     carried = np.cumsum(arm.levers[::-1])[::-1]
     proven, asked = [], []
@@ -304,8 +309,8 @@ def _first_path(
     H: Floats,
     distance: float,
 ) -> Floats | None:
-    """The path that the search finds to the first goal that it can reach with every part far
-    enough from the obstacles, without unnecessary corners.
+    """The path to the first goal that can be reached with every part of the path far enough from
+    the obstacles, without unnecessary corners.
     """
     nodes, numbers = (column[:400] for column in arrivals(axes, goals, steps))
     good = motions_keep(arm, grid_postures(axes, nodes), goals[numbers], H, distance)

@@ -1,4 +1,4 @@
-"""Paths that need not be safe (`planner` decides that), and the place on a path where a lever comes
+"""Paths that may be unsafe (`planner` checks safety), and the point of a path where a lever comes
 nearest to the obstacle.
 """
 
@@ -13,9 +13,9 @@ from .planner import along, via_path
 def unchecked_path(
     arm: ThreeLeverArm, way: str, q0: Floats, K1: Floats, H: Floats, distance: float
 ) -> Floats:
-    """The path (k, 3) from posture q0 to the target for the way "direct" or "via points", safe or
-    not; only q0, (1, 3), if there is none. The via points are `distance` metres from the obstacle H
-    (2,), or L/7 if that is more.
+    """The path (k, 3) from posture q0 to the target for the way "direct" or "via points", whether
+    it is safe or not. It contains only q0, (1, 3), if there is no such path. The via points are
+    `distance` metres from the obstacle H (2,), or L/7 if that is more.
     """
     if way == "direct":
         path = np.stack([q0, arm.least(K1, q0)[0]])
@@ -30,9 +30,10 @@ def unchecked_path(
 def nearest_approach(
     arm: ThreeLeverArm, path: Floats, clearances: Floats, H: Floats
 ) -> tuple[int, float, Floats]:
-    """The lever that comes nearest to H (2,) on the path (k, 3) with this `clearance` (k - 1, 3),
-    its distance in metres, and the nearest point (2,) on it. A path (1, 3) is a single posture. The
-    point comes from samples, which are accurate enough for a figure.
+    """The lever that comes nearest to H (2,) on the path (k, 3), its distance in metres, and its
+    point (2,) that is nearest to H. `clearances` (k - 1, 3) is the `clearance` of the path. A path
+    (1, 3) is a single posture. The point is found by sampling, which is accurate enough for a
+    figure.
     """
     each = clearances.min(axis=0) if len(path) > 1 else lever_distances(arm, path[0], H)
     lever, near = int(each.argmin()), float(each.min())

@@ -1,5 +1,5 @@
 """Stepper motors: the pulses of a move and their times, the windings that they switch on and off,
-and whether the rotor follows.
+and whether the rotor follows them.
 
 Example: the motors of the log loader (source 003, paper 1), from the points of a job to the pulses:
 

@@ -11,13 +11,13 @@ from ...arms.elbow import ElbowGeometry
 from ...arms.geometry import FREE, ROUNDING
 from ...units import deg, wrapped
 
-LIMIT = 500.0  # pulses per second, the greatest frequency. Source: 003, paper 1, (8)
+LIMIT = 500.0  # pulses per second, the maximum frequency. Source: 003, paper 1, (8)
 SAMPLES = 1001  # number of postures along a straight line
 SLACK = 1e-9  # a position this close to a whole pulse counts as that pulse
-# greatest distance from zero in pulses; up to it a float represents every whole number exactly
+# maximum distance from zero in pulses: a float represents every whole number up to it exactly
 COUNTED = 2**52
-LISTED = 10_000_000  # greatest number of pulses that one call lists
-STRETCHES = 100_000  # greatest number of stretches of a move whose pulses are listed
+LISTED = 10_000_000  # maximum number of pulses that one call lists
+STRETCHES = 100_000  # maximum number of segments of a move whose pulses are listed
 
 
 # ---- From points to motor positions
@@ -42,10 +42,10 @@ def station_postures(arm: ClosedFormArm, points: ArrayLike) -> Floats:
     """The loader's postures at consecutive stations: points (stations, 3) -> q (stations, 3), with
     alpha unwrapped.
 
-    The elbow is up; beta lies in 0..180 degrees and gamma in 0..270 (for z >= 0). alpha begins in
-    (-180, 180] and continues by the shortest turn; on the vertical axis, where it is free, it keeps
-    its value (0 at first). NaN rows where a point is out of reach. Source: 003, paper 1, table 1
-    and (2) to (4); errata S3-p, S3-q.
+    The elbow is up; beta is from 0 to 180 degrees and gamma from 0 to 270 degrees (for z >= 0).
+    alpha begins in (-180, 180] and continues by the shortest turn; on the vertical axis, where it
+    is free, it keeps its value (0 at the start). Rows are NaN where a point is out of reach.
+    Source: 003, paper 1, table 1 and (2) to (4); errata S3-p, S3-q.
     """
     reach, points = _loader(arm).elbow.reach, floats(points, "points", 3)
     if points.ndim != 2:
@@ -73,13 +73,12 @@ def shortest_turn(start: ArrayLike, goal: ArrayLike) -> Floats:
 
 
 def counts(q: ArrayLike, per_degree: ArrayLike) -> Ints:
-    """The motor positions at joint values q (..., n) rad, rounded to whole pulses (..., n).
+    """The motor positions at joint values q (..., n) in rad, rounded to whole pulses (..., n).
 
     per_degree  (n,) or one number: pulses per degree of the joint, including the gear. Source: 003,
                 paper 1, the reduced angle phi of (5).
-    The pulses of moves are differences, `np.diff(counts(q, per_degree), axis=-2)`: their sum is
-    exact. It warns (UserWarning) if a joint has made many turns: the angles are probably in
-    degrees.
+    The pulses of each move are the differences, `np.diff(counts(q, per_degree), axis=-2)`, so that
+    their sum is exact. Warns (UserWarning) if an angle is so large that it is probably in degrees.
     """
     values = floats(q, "q")
     warn_if_degrees(values, "q", posture=1)
@@ -99,13 +98,13 @@ def joint_values(positions: ArrayLike, per_degree: ArrayLike) -> Floats:
 
 @dataclass(frozen=True, eq=False)
 class Move(Sealed):
-    """The motion of n motors between two stations: they are at `positions` (k, n) in pulses at the
-    times `t` (k,) in s and run at constant speed in between. The first time is 0, and the first and
-    last positions are whole pulses. Both are read-only copies.
+    """The motion of n motors between two stations. The motors are at `positions` (k, n), in pulses,
+    at the times `t` (k,), in s, and run at constant speed in between. The first time is 0, and the
+    first and last positions are whole pulses. Both arrays are read-only copies.
 
-    `move(t)` returns the positions at the times t (...), as (..., n), not rounded; before and after
-    the move they are constant. ValueError: times that do not increase from 0, positions that do not
-    match.
+    `move(t)` returns the positions (..., n) at the times t (...), not rounded; before and after the
+    move, they are constant. Raises ValueError if the times do not increase from 0 or the positions
+    do not match them.
     """
 
     t: Floats
@@ -133,21 +132,22 @@ class Move(Sealed):
 
     @property
     def frequencies(self) -> Floats:
-        """(k - 1, n) pulses per second in each stretch of the move, negative if backwards."""
+        """The pulses per second in each segment of the move: (k - 1, n), negative if backwards."""
         with np.errstate(over="ignore"):
             return np.diff(self.positions, axis=0) / np.diff(self.t)[:, None]
 
     def pulses(self) -> list[tuple[Floats, Ints]]:
-        """The pulse trains: for each motor (times, signs), both (pulses,); the signs are +1 and -1.
+        """The pulse train of each motor as (times, signs), both (pulses,); the signs are +1 and -1.
 
-        A pulse comes when the motor should be one whole pulse further (or back). So the motor lags
-        by less than one pulse and makes exactly the pulses of the move, and no two pulses come
-        faster than the frequencies permit, even after a change of direction. ValueError: a move of
-        more than `LISTED` pulses or `STRETCHES` stretches.
+        A pulse is sent when the motor should be one whole pulse further (or further back). The
+        motor therefore lags by less than one pulse and makes exactly the pulses of the move, and
+        pulses never follow each other faster than the frequencies permit, even after a change of
+        direction. Raises ValueError if the move has more than `LISTED` pulses or `STRETCHES`
+        segments.
         """
         count, stretches = abs(self.positions[1:] - self.positions[:-1]).sum(), len(self.t) - 1
         if count > LISTED or stretches > STRETCHES:
-            wanted = f"wanted a move of at most {LISTED} pulses in {STRETCHES} stretches"
+            wanted = f"wanted a move of at most {LISTED} pulses in {STRETCHES} segments"
             raise ValueError(f"pulses: {wanted}, got {count:.0f} in {stretches}")
         return [_train(self.t, column) for column in self.positions.T]
 
@@ -157,7 +157,7 @@ def frequencies(pulses: ArrayLike, limit: float = LIMIT) -> Floats:
     per second.
 
     The motor with the most pulses runs at `limit`; a motor without pulses stands still. Source:
-    003, paper 1, (5) to (8), with errata S3-s: its conditions (6) and (7) make the motor with the
+    003, paper 1, (5) to (8), with errata S3-s: its conditions (6) and (7) make the motor that has
     farthest to go the slowest. The correct condition is omega1 phi2 = omega2 phi1 for every pair of
     motors: omega_i = limit phi_i / max phi.
     """
@@ -169,9 +169,9 @@ def frequencies(pulses: ArrayLike, limit: float = LIMIT) -> Floats:
 
 
 def unsynchronised(start: ArrayLike, goal: ArrayLike, limit: float = LIMIT) -> Move:
-    """Trajectory a of the document: all motors start together at the greatest frequency, and each
-    stops when it has finished. start, goal (n,) motor positions -> Move. The gripper's path has a
-    kink wherever a motor stops.
+    """Trajectory a of the document: all motors start together at the maximum frequency, and each
+    stops when it has finished. `start` and `goal` are motor positions (n,). The gripper's path has
+    a kink wherever a motor stops.
 
     Source: 003, paper 1, figure 4 (5 in the text), a.
     """
@@ -184,7 +184,7 @@ def unsynchronised(start: ArrayLike, goal: ArrayLike, limit: float = LIMIT) -> M
 
 def synchronised(start: ArrayLike, goal: ArrayLike, limit: float = LIMIT) -> Move:
     """Trajectory d of the document: all motors start and stop together, each at its own constant
-    frequency (`frequencies`). start, goal (n,) motor positions -> Move. No motor reverses; the
+    frequency (`frequencies`). `start` and `goal` are motor positions (n,). No motor reverses; the
     gripper's path is a curve.
 
     No motion within the limit is faster. Source: 003, paper 1, figure 4 (5 in the text), d.
@@ -204,16 +204,16 @@ def straight(
     limit: float = LIMIT,
 ) -> Move:
     """Trajectories b and c of the document: the loader's gripper moves straight from one point (3,)
-    to another -> Move.
+    to another.
 
-    All motors start and stop together. At any moment the fastest one runs at the greatest
-    frequency, so this is the shortest time for the path. The figure is lost, and the text
+    All motors start and stop together. At any moment, the fastest one runs at the maximum
+    frequency, so this is the shortest time for the path. The figure is missing, and the text
     distinguishes c from b only by a motor that turns one way and then back. We take b and c to be
     the same law between two different pairs of points. c needs more pulses than d between the same
     points.
 
-    Source: 003, paper 1, figure 4 (5 in the text), b and c. ValueError: a point of the line for
-    which `out_of_reach` gives a reason.
+    Source: 003, paper 1, figure 4 (5 in the text), b and c. Raises ValueError if `out_of_reach`
+    gives a reason for a point of the line.
     """
     _loader(arm)
     start, goal = _place(start, "start"), _place(goal, "goal")
@@ -265,7 +265,7 @@ def _limit(value: float) -> float:
 
 
 def _seconds(pulses: Floats, limit: float) -> Floats:
-    """The time that these pulses take at the greatest frequency."""
+    """The time that these pulses take at the maximum frequency."""
     with np.errstate(over="ignore"):
         return floats(pulses / _limit(limit), "pulses / limit")
 
@@ -280,7 +280,7 @@ def _pulses(q: Floats, per_degree: ArrayLike) -> Floats:
 
 
 def _counted(positions: Floats, name: str) -> Floats:
-    """Return the positions. ValueError: more pulses than a float represents exactly."""
+    """Return the positions. Raises ValueError if a float cannot represent them exactly."""
     most = abs(positions).max(initial=0)
     if not most <= COUNTED:
         raise ValueError(f"{name}: wanted at most 2**52 pulses from zero, got {most:.6g}")
@@ -309,7 +309,7 @@ def _train(t: Floats, due: Floats) -> tuple[Floats, Ints]:
     times, signs, stands = [np.empty(0)], [np.empty(0, dtype=np.int64)], due[0]
     direction = np.sign(np.diff(due))
     turning = direction.nonzero()[0]
-    # the stretches that begin with a reversal of the motor
+    # the segments that begin with a reversal of the motor
     turning = turning[1:][direction[turning[1:]] != direction[turning[:-1]]]
     ends = [*turning, len(due) - 1]
     for begin, end in zip([0, *turning], ends, strict=True):

@@ -26,23 +26,23 @@ COLUMNS: Mapping[str, tuple[str, ...]] = MappingProxyType(
 
 
 def phases(drive: str, motor: str, windings: int | None = None) -> Ints:
-    """The phase table, one row per pulse: (rows, columns) of 1, 0 and -1. By default it is that of
-    the document's motors, with columns as in `COLUMNS[motor]`.
+    """The phase table, with one row per pulse: (rows, columns) of 1, 0 and -1. By default, it is
+    the table of the document's motors, with columns as in `COLUMNS[motor]`.
 
-    drive     "wave": one winding at a time; "two-phase": two neighbours, with more torque;
-              "half-step": one winding and two alternately: half the angle per pulse, so twice the
-              pulses per degree
-    motor     "unipolar": one column for each winding, 1 where it carries current. "bipolar": two
-              columns for each, 1 at its positive end, -1 at its negative end. The document names
-              the columns a1, b1, a2, b2 for both motors but means different wires (errata S3-t):
-              with table 1's names the first row of table 2 would be two opposite half windings
-              that cancel.
-    windings  the number of windings. Unipolar: 3 to 6 (with two, the second would pull as much
-              backwards as forwards), 4 if None, which are the halves of two windings with centre
-              taps. Bipolar: 2 to 6, 2 if None. Source: 003, II.3.1 ("two to six")
+    drive     "wave" (one winding at a time), "two-phase" (two neighbouring windings, with more
+              torque) or "half-step" (one winding and two windings alternately, with half the angle
+              per pulse and therefore twice the pulses per degree)
+    motor     "unipolar" (one column for each winding, 1 where it carries current) or "bipolar" (two
+              columns for each winding, 1 at its positive end and -1 at its negative end). The
+              document names the columns a1, b1, a2, b2 for both motors but means different wires
+              (errata S3-t): with the names of table 1, the first row of table 2 would be two
+              opposite half windings, which cancel each other.
+    windings  the number of windings. A unipolar motor has 3 to 6 (with two, the second would pull
+              as much backwards as forwards); None means 4, the halves of two windings with centre
+              taps. A bipolar motor has 2 to 6; None means 2. Source: 003, II.3.1 ("two to six")
 
-    The field turns evenly, once in n rows (unipolar) or 2 n rows (bipolar), and in twice as many
-    half steps. Source: 003, II.3.2, tables 1 and 2 (table 2 shows only the plus signs). Its
+    The field turns in equal steps: once in n rows (unipolar) or 2 n rows (bipolar), or in twice as
+    many half steps. Source: 003, II.3.2, tables 1 and 2 (table 2 shows only the plus signs). Its
     appendices 3 and 4, for the two-phase drive of the unipolar motor and the half step, are not in
     the text: we derive these rows from the order of table 1.
     """
@@ -61,12 +61,12 @@ def phases(drive: str, motor: str, windings: int | None = None) -> Ints:
 
 
 def energised(table: ArrayLike, signs: ArrayLike, row: int = 0) -> Ints:
-    """The currents in the windings before the first and after each pulse: table (rows, columns),
-    signs (pulses,) -> (pulses + 1, columns).
+    """The currents in the windings before the first pulse and after each pulse: table (rows,
+    columns), signs (pulses,) -> (pulses + 1, columns).
 
     The first result is row `row` of the table, modulo the number of rows. A positive pulse moves to
-    the next row and a negative one to the row before: the order of the rows gives the direction.
-    Source: 003, II.3.1. ValueError: signs that are not +1 or -1.
+    the next row and a negative one to the previous row, so the order of the rows gives the
+    direction. Source: 003, II.3.1. Raises ValueError if a sign is not +1 or -1.
     """
     rows, signs = floats(table, "table"), floats(signs, "signs")
     if rows.ndim != 2 or not len(rows):

@@ -11,34 +11,36 @@ from .moves import LIMIT
 from .phase_table import DRIVES, energised, phases, read_windings
 
 ROTORS = ("active", "passive")
-SETTLED = 8.0  # time constants after which a rotor is at rest
-NEARLY = 3.0  # time constants until a current is within 5 % of its final value
+SETTLED = 8.0  # number of time constants after which a rotor is at rest
+NEARLY = 3.0  # number of time constants until a current is within 5 % of its final value
 # the integration step, as a fraction of the shortest mechanical time constant and of `rise`
 FINE = (0.1, 0.25)
-INTEGRATED = 100_000  # greatest number of steps of one run
-FASTEST = 1e9  # rad/s: the greatest speed that a load or torque may cause
+INTEGRATED = 100_000  # maximum number of steps of one run
+FASTEST = 1e9  # rad/s: the maximum speed that a load or torque may cause
 SLOWEST = 10  # pulses per second: the search for a start frequency begins here
 
 
 @dataclass(frozen=True)
 class Stepper(Sealed):
-    """A stepper motor modelled as an inertia on a magnetic spring, which each pulse moves forward.
+    """A stepper motor modelled as an inertia on a magnetic spring. Each pulse moves the spring
+    forward.
 
-    rotor     "active": a permanent magnet of two poles. "passive": soft iron with 2 n + 2 teeth
-              between 2 n poles; the sign of a current has no effect, so the motor is unipolar
+    rotor     "active" (a permanent magnet with two poles) or "passive" (soft iron with 2 n + 2
+              teeth between 2 n poles; the sign of a current has no effect, so the motor is
+              unipolar)
     motor, windings, drive  as in `phases`
-    torque    the greatest torque of one winding, N m
+    torque    the maximum torque of one winding, N m
     inertia   the rotor's moment of inertia, kg m^2
     damping   braking torque per angular speed, N m s
-    rise      time constant L/R of a winding's current, s; with 0 the current changes at once
+    rise      time constant L/R of a winding's current, s; with 0, the current changes at once
 
-    Each winding with the current i (1: full) pulls with torque * i * sin(psi - N theta), where psi
-    is its place in the ring of windings, theta the rotor's angle and N the number of periods of the
-    pull in one revolution of the rotor (`periods`): 1, or the number of teeth. For a passive rotor,
-    i^2 replaces i. The sum over the windings is a single sine as well: torque * |pull| *
-    sin(arg(pull) - N theta). ValueError: numbers that are not positive, a passive bipolar motor.
-    Source: 003, II.3.1 (active and passive rotors); the sine is the usual first term, e.g. P.
-    Acarnley, Stepping Motors, 2002, ch. 2 to 5.
+    A winding with the current i (1 is full current) pulls with torque * i * sin(psi - N theta),
+    where psi is its position in the ring of windings, theta the rotor's angle and N the number of
+    periods of the pull in one revolution of the rotor (`periods`), which is 1 or the number of
+    teeth. For a passive rotor, i^2 replaces i. The sum over the windings is a single sine as well:
+    torque * |pull| * sin(arg(pull) - N theta). Raises ValueError if a number is not positive or a
+    passive motor is bipolar. Source: 003, II.3.1 (active and passive rotors); the sine is the usual
+    first harmonic, see for example P. Acarnley, Stepping Motors, 2002, ch. 2 to 5.
     """
 
     rotor: str = "active"
@@ -67,7 +69,7 @@ class Stepper(Sealed):
 
     @property
     def currents(self) -> Ints:
-        """(rows, windings): the current of each winding in each row of `phases`: 1, 0 or -1."""
+        """The current of each winding in each row of `phases`: (rows, windings) of 1, 0 and -1."""
         table = phases(self.drive, self.motor, self.windings)
         return table[:, ::2] if self.motor == "bipolar" else table
 
@@ -82,7 +84,7 @@ class Stepper(Sealed):
     @property
     def pulls(self) -> np.ndarray[tuple[int, ...], np.dtype[np.complex128]]:
         """The pull of each row as a complex number, (rows,): its direction in the ring of windings
-        and its strength (1: one winding).
+        and its strength (1 is one winding).
         """
         turn = (math.pi if self.motor == "bipolar" else 2 * math.pi) / self.windings
         currents = self.currents if self.rotor == "active" else self.currents**2
@@ -93,17 +95,17 @@ class Stepper(Sealed):
 
     @property
     def holding_torque(self) -> float:
-        """The greatest load, N m, that the motor holds at rest in every row: torque * |pull|."""
+        """The maximum load in N m that every row can hold at rest: the least torque * |pull|."""
         return float(self.torque * abs(self.pulls).min())
 
     @property
     def starting_torque(self) -> float:
-        """The greatest load, N m, that the motor can still move from every row to the next at low
-        speed.
+        """The maximum load in N m that the motor can move from every row to the next at low speed.
 
-        A load L deflects row k by asin(L / s_k), with the strength s_k. The next row can take over
-        as long as both angles and the step add up to less than half a turn. So L is the distance
-        from 0 to the line between two neighbouring `pulls`. Source of the term: 003, II.3.1.
+        A load L deflects the rotor in row k by asin(L / s_k), where s_k is the strength of the row.
+        The next row can take over as long as both angles and the step add up to less than half a
+        turn. The maximum L is therefore the distance from 0 to the line between two neighbouring
+        `pulls`. Source of the term: 003, II.3.1.
         """
         now, on = self.pulls, np.roll(self.pulls, -1) - self.pulls
         share = np.clip(-(now.conj() * on).real / abs(on) ** 2, 0, 1)
@@ -111,8 +113,9 @@ class Stepper(Sealed):
 
     @property
     def commutation_frequency(self) -> float:
-        """The frequency, pulses per second, above which a winding's current does not get within 5 %
-        of its final value in one step; infinite if `rise` is 0. Source of the term: 003, II.3.1.
+        """The frequency, in pulses per second, above which a winding's current does not get within
+        5 % of its final value in one step; infinite if `rise` is 0. Source of the term: 003,
+        II.3.1.
         """
         return 1 / (NEARLY * self.rise) if self.rise else math.inf
 
@@ -120,15 +123,15 @@ class Stepper(Sealed):
         self, load: float = 0.0, load_inertia: float = 0.0, pulses: int = 48
     ) -> float:
         """The highest frequency, in whole pulses per second, at which the motor follows from rest
-        without losing a step; one pulse per second more, and it loses some. At most `LIMIT`; 0 if
-        even `SLOWEST` is too fast. We find it by bisection, so we may miss that a motor
-        with little damping also loses steps far below it, because of resonance.
+        without losing a step; at one pulse per second more, it loses steps. It is at most `LIMIT`,
+        and 0 if even `SLOWEST` is too fast. We find it by bisection, which may miss that a motor
+        with little damping also loses steps at much lower frequencies, because of resonance.
 
         load, load_inertia  as in `run`. Source of the term: 003, II.3.1.
         """
         count = whole(pulses, "pulses", 1, INTEGRATED)
         low, high = SLOWEST - 1, int(LIMIT) + 1
-        # the motor loses no steps at `low` (or `low` is too slow to try), and some at `high`
+        # the motor loses no steps at `low` (or `low` is too slow to try), and loses steps at `high`
         while high - low > 1:
             middle = (low + high) // 2
             times = np.arange(1, count + 1) / middle
@@ -139,20 +142,21 @@ class Stepper(Sealed):
     def run(
         self, times: ArrayLike, signs: ArrayLike, load: float = 0.0, load_inertia: float = 0.0
     ) -> "RotorMotion":
-        """Simulate the rotor: it rests in the table's first row, receives the pulses, and comes to
-        rest again.
+        """Simulate the rotor, which rests in the first row of the table, receives the pulses, and
+        comes to rest again.
 
         times, signs  (pulses,) as `Move.pulses` returns them: times in s, from 0 on and never
                       decreasing, and +1 or -1
-        load          N m, like a weight on a drum: it always pulls backwards
+        load          N m; like a weight on a drum, it always pulls backwards
         load_inertia  kg m^2, in addition to the rotor's
 
-        Fourth-order Runge-Kutta in equal steps from pulse to pulse; js/rotor.js does the same on a
-        page. ValueError: a run of more than `INTEGRATED` steps.
+        We use the fourth-order Runge-Kutta method, with equal steps from pulse to pulse;
+        js/rotor.js does the same in a page. Raises ValueError if the run has more than `INTEGRATED`
+        steps.
         """
         t, turns = floats(times, "times"), floats(signs, "signs")
         if t.ndim != 1 or t.shape != turns.shape or (np.diff(t, prepend=0.0) < 0).any():
-            wanted = "wanted times (pulses,) from 0 on that do not decrease, and as many signs"
+            wanted = "wanted times (pulses,), at least 0 and never decreasing, and as many signs"
             raise ValueError(f"times and signs: {wanted}, got {short(t)} and {short(turns)}")
         # `energised` raises ValueError for signs other than +1 and -1.
         rows = energised(np.arange(len(self.currents))[:, None], turns)[:, 0]
@@ -165,8 +169,8 @@ class RotorMotion(Sealed):
     been `due` (k,), both in rad. `lost` is the number of steps by which the final angle is short of
     `due`; steps lost from pulses with the sign -1 count as negative.
 
-    At rest the rotor can only be where the last row holds it. So the number of lost steps is always
-    a multiple of the number of rows of the phase table.
+    At rest, the rotor can only be where the last row holds it, so the number of lost steps is
+    always a multiple of the number of rows of the phase table.
     """
 
     t: Floats
@@ -177,12 +181,13 @@ class RotorMotion(Sealed):
 
 def ramp(pulses: int, start: float, end: float, seconds: float) -> Floats:
     """The times (pulses,) in s of pulses whose frequency rises linearly from `start` to `end`
-    within `seconds`, stays there, and falls in the same way. In a short move it begins to fall
+    within `seconds`, stays there, and falls in the same way. In a short move, it begins to fall
     before it reaches `end`.
 
-    Frequencies are in pulses per second; with `seconds` 0 it is `end` from the beginning. Pulse k
-    comes when k pulses are due, so the last one comes at the end of the move. With equal `start`
-    and `end` the times are those that `Move.pulses` returns at a constant frequency.
+    Frequencies are in pulses per second; with `seconds=0`, the frequency is `end` from the
+    beginning. Pulse k is sent when k pulses are due, so the last one is sent at the end of the
+    move. If `start` and `end` are equal, the times are those that `Move.pulses` returns at a
+    constant frequency.
     """
     count = whole(pulses, "pulses", 1, INTEGRATED)
     low, high = (
@@ -282,8 +287,8 @@ def _rotor_run(
 def _integration_steps(
     motor: Stepper, times: Floats, load: float, inertia: float
 ) -> tuple[Floats, Floats]:
-    """The seconds before each pulse and until the rotor is at rest (pulses + 1,), and the number of
-    equal integration steps in each. ValueError: too many steps.
+    """The times in s before each pulse and until the rotor is at rest (pulses + 1,), and the number
+    of equal integration steps in each of them. Raises ValueError if there are too many steps.
     """
     torque, damping = motor.torque, motor.damping
     swing = math.sqrt(inertia / (motor.periods * torque * float(abs(motor.pulls).max())))
@@ -305,9 +310,9 @@ def _integration_steps(
 
 
 def _resting(motor: Stepper, load: float) -> Floats:
-    """(rows,) rad: the rest position of the rotor in each row under a load, the first within half a
-    period of 0 and the others after it. If a row cannot hold the load, it is the position where the
-    row pulls most.
+    """The rest position of the rotor in each row under a load: (rows,) in rad, the first within
+    half a period of 0 and the others after it. For a row that cannot hold the load, it is the
+    position where the row pulls most strongly.
     """
     pulls = motor.pulls
     bent = np.arcsin(np.clip(load / (motor.torque * abs(pulls)), -1, 1))

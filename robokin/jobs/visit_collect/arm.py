@@ -16,15 +16,16 @@ UNDER = 1e-9  # fraction of the reach: a tool below the floor by no more than th
 
 
 def workspace(l1: float, l2: float, points: ArrayLike) -> Bools:
-    """Whether each of the document's four conditions holds: points (..., 3) in metres -> bool (...,
-    4).
+    """Return whether each of the document's four conditions holds: points (..., 3) in metres ->
+    bool (..., 4).
 
-    In this order: the point is not beyond the stretched arm; it is not below the floor; it is not
-    nearer to the origin than l1 - l2 (if l1 > l2); the elbow is not below the floor (if l1 < l2). A
-    point past a border only by rounding (1e-12 of the reach) counts as on it (errata S0-l). A point
-    is in the workspace if all four hold; then the principal branch exists, inside the limits.
-    Source: 000, "Определение границ рабочей области"; its condition cos q2 >= 0 follows (errata
-    S0-c, S0-s).
+    The conditions are, in this order: the point is not beyond the reach of the fully extended arm;
+    it is not below the floor; it is not nearer to the origin than l1 - l2 (if l1 > l2); the elbow
+    is not below the floor (if l1 < l2). A point that is beyond a boundary only because of rounding
+    (1e-12 of the reach) counts as on it (errata S0-l). A point is in the workspace if all four
+    conditions hold; then the principal branch exists and is within the limits. Source: 000,
+    "Определение границ рабочей области"; its condition cos q2 >= 0 follows from these (errata S0-c,
+    S0-s).
     """
     l1, l2 = _links(l1, l2)
     x, y, z = components(floats(points, "points", 3))
@@ -41,7 +42,7 @@ def workspace(l1: float, l2: float, points: ArrayLike) -> Bools:
 
 
 def out_of_workspace(l1: float, l2: float, point: ArrayLike) -> list[str]:
-    """The reasons why a point (3,) is outside the workspace: a list of strings, empty inside it."""
+    """The reasons why a point (3,) is outside the workspace: a list of strings, empty if inside."""
     l1, l2 = _links(l1, l2)
     p = floats(point, "point", 3)
     if p.ndim != 1:
@@ -56,8 +57,8 @@ def principal_postures(l1: float, l2: float, points: ArrayLike) -> Floats:
     """The principal branch for points (..., 3) -> q (..., 3) in rad. A free joint is NaN; a point
     out of reach gives a NaN row.
 
-    On axis 1 joint 1 is free (errata S0-p), and with equal links folded onto the origin joint 2 as
-    well (S0-k).
+    On axis 1, joint 1 is free (errata S0-p). Where equal links are folded onto the origin, joint 2
+    is free as well (S0-k).
     """
     l1, l2 = _links(l1, l2)
     # -0.0 becomes 0, since atan2 distinguishes the two although they are the same coordinate
@@ -74,7 +75,7 @@ def principal_postures(l1: float, l2: float, points: ArrayLike) -> Floats:
 
 def misfit(l1: float, l2: float, q: ArrayLike, points: ArrayLike) -> Floats:
     """The distance in m of the tool at q (..., 3) from the points (..., 3) where it should be:
-    (...). Infinite if a joint is past its limit, NaN if the posture does not exist.
+    (...). It is infinite if a joint exceeds its limit, and NaN if the posture does not exist.
 
     The printed program's seven checks are meant to test this, but they lack the absolute value, and
     none of them tests joint 1 (errata S0-e).
@@ -91,15 +92,15 @@ def misfit(l1: float, l2: float, q: ArrayLike, points: ArrayLike) -> Floats:
 def travel_time(
     q_from: ArrayLike, q_to: ArrayLike, speeds: ArrayLike, *, short_way: bool = False
 ) -> Floats:
-    """The least time in s from posture to posture: q_from, q_to (..., 3) and greatest speeds (3,)
-    -> (...).
+    """The shortest time in s from one posture to another: q_from, q_to (..., 3) and maximum speeds
+    (3,) -> (...).
 
-    t is the maximum over the joints of |difference| / speed: the slowest joint decides. A NaN joint
-    takes no time: in q_to it is free and keeps its value (errata S0-p), in q_from its value is
-    unknown. To continue from a free joint, insert the value that it kept, as `itinerary` does. The
-    result is NaN if every joint is NaN. `short_way` lets joint 1 take the shorter turn, as if it
-    had no stop at +-pi (errata S0-o). Source: 000, "Нахождение времени". ValueError: wrong shapes,
-    a speed that is not positive.
+    t is the maximum over the joints of |difference| / speed: the slowest joint decides. A joint
+    that is NaN takes no time: in q_to, it is free and keeps its value (errata S0-p); in q_from, its
+    value is unknown. To continue from a free joint, insert the value that it kept, as `itinerary`
+    does. The result is NaN if every joint is NaN. `short_way` lets joint 1 take the shorter turn,
+    as if it had no stop at +-pi (errata S0-o). Source: 000, "Нахождение времени". Raises ValueError
+    if a shape is wrong or a speed is not positive.
     """
     start, end = (
         floats(q, name, 3, finite=False) for q, name in ((q_from, "q_from"), (q_to, "q_to"))
@@ -114,13 +115,13 @@ def travel_time(
 
 
 def lowest(l1: float, l2: float, q_from: ArrayLike, q_to: ArrayLike) -> Floats:
-    """The least height of the tool in m on the way from q_from to q_to (..., 3), with every joint
+    """The lowest height of the tool in m on the way from q_from to q_to (..., 3), with every joint
     at constant speed: (...).
 
-    Between two points above the floor it can be negative if l1 > l2 (errata S0-u). This is a proven
-    bound and not a sample: the tool is nowhere lower than this minus 1e-9 of the reach. A joint
-    that is NaN at one end is free and stands still. The result is NaN if a posture does not exist.
-    ValueError: a joint beyond two turns.
+    Between two points above the floor it can be negative if l1 > l2 (errata S0-u). The result is a
+    proven bound, not the minimum of samples: the tool is nowhere lower than this height minus 1e-9
+    of the reach. A joint that is NaN at one end is free and stands still. The result is NaN if a
+    posture does not exist. Raises ValueError if a joint value exceeds two turns.
     """
     l1, l2 = _links(l1, l2)
     start, end = (
@@ -149,8 +150,8 @@ def joint_travel_time(start: Floats, end: Floats, speeds: Floats, short_way: boo
 
 
 def with_free_joints(q: Floats, here: Floats | float) -> Floats:
-    """Postures q (..., 3) with each free joint (NaN) as in the posture `here`. A posture that does
-    not exist also lacks joint 3, and stays NaN.
+    """Return postures q (..., 3) in which each free joint (NaN) has its value from the posture
+    `here`. A posture that does not exist also lacks joint 3, and remains NaN.
     """
     return np.where(np.isnan(q) & ~np.isnan(q[..., 2:]), here, q)
 
@@ -197,12 +198,13 @@ def _links(l1: Any, l2: Any) -> tuple[float, float]:
 
 @np.errstate(invalid="ignore")  # postures that do not exist are NaN
 def _lowest_of_block(l1: float, l2: float, moves: Sequence[Floats], below: float) -> Floats:
-    """`lowest_place` for moves: q2 and q3 at the start, q2 and q3 at the end, (n,) each.
+    """`lowest_place` for n moves, given by q2 and q3 at the start and q2 and q3 at the end, (n,)
+    each.
 
-    It bisects the pieces of a move that can still contain a lower place. With a = q2 and b = q2 +
-    q3 the height is z = l1 cos a - l2 sin b, and a, b change linearly. A piece of the fraction h is
-    lower than its lower end by at most z'' h^2 / 8, and z'' is bounded by its value in the middle
-    and its rate of change.
+    The function bisects the pieces of a move that can still contain a lower point. With a = q2 and
+    b = q2 + q3, the height is z = l1 cos a - l2 sin b, and a and b change linearly. A piece that is
+    a fraction h of the move is lower than its lower end by at most z'' h^2 / 8, and z'' is bounded
+    by its value in the middle and its rate of change.
     """
     a, q3, a_end, q3_end = moves
     b, b_end = a + q3, a_end + q3_end

@@ -8,15 +8,16 @@ from .arm import UNDER, joint_travel_time, lowest_place
 from .solver import Result, fits, stops_of
 from .task import FAULTS_SHOWN, Task, and_more, coordinates
 
-# This limit keeps a report readable:
+# With this limit, a report remains readable:
 POINTS_SHOWN = 1_000
 
 
 def report(task: Task, result: Result) -> str:
-    """The result as text, with a line for each point served: its index in pi, its coordinates, its
-    time. Warnings follow: moves on which the tool dips below the floor, an order that may not be
-    the best, and oddities of the file. It lists at most POINTS_SHOWN points and FAULTS_SHOWN moves.
-    ValueError: a result of another task.
+    """Return the result as text, with a line for each point that is visited or collected: its index
+    in pi, its coordinates and its time. Warnings follow about moves on which the tool dips below
+    the floor, an order that may not be the best, and anomalies in the file. At most POINTS_SHOWN
+    points and FAULTS_SHOWN moves are listed. Raises ValueError if the result belongs to another
+    task.
     """
     stops = stops_of(task, result)
     done, count = "collected" if task.kind == "collect" else "visited", len(result.order)

@@ -1,4 +1,4 @@
-"""Solutions of a task: which points are served, in which order and when."""
+"""Solutions of a task: the points that the arm visits or collects, their order and their times."""
 
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
@@ -12,19 +12,19 @@ from ...arms.geometry import ROUNDING
 from .arm import UNDER, joint_travel_time, lowest_place, with_free_joints
 from .task import Task, TaskError
 
-# These limits keep every call to a few seconds:
-# greatest number of points; each additional one doubles the time and memory of the exact optimum
+# With these limits, every call takes at most a few seconds. Maximum number of points for the exact
+# optimum; each additional point doubles its time and memory:
 EXACT_LIMIT = 16
-# greatest number of points; repeatedly finding the nearest of n points compares n^2 / 2 moves
+# Maximum number of points; repeatedly finding the nearest of n points compares n^2 / 2 moves:
 NEAREST_LIMIT = 10_000
-# greatest number of points if the lowest place of each of these moves is computed too
+# Maximum number of points if the lowest point of each of these moves is computed as well:
 ABOVE_LIMIT = 1_000
 
 
 @dataclass(frozen=True)
 class Result(Sealed):
-    """The result of a task: `order` and `left` are indices into its points, and `times` in s says
-    when each point of `order` is visited or brought back.
+    """The result of a task. `order` and `left` are indices of its points, and `times`, in s, are
+    the times at which the points of `order` are visited or brought back.
     """
 
     order: tuple[int, ...]
@@ -41,21 +41,22 @@ class Result(Sealed):
 
     @property
     def time(self) -> float:
-        """The time in s when the last point is served; 0 if none is."""
+        """The time in s at which the last point is visited or brought back; 0 if there is none."""
         return self.times[-1] if self.times else 0.0
 
 
-# here and below: at 1e-308 rad/s a time overflows to infinity, so it exceeds T
+# at 1e-308 rad/s, a time overflows to infinity, which exceeds T (here and below)
 @np.errstate(over="ignore")
 def collect(task: Task, *, short_way: bool = False, above_floor: bool = False) -> Result:
     """Bring as many points as possible to p0, one at a time, within T.
 
-    Each point costs the time there and back. The cheapest points come first, with the lower index
-    on a tie. This is the optimum (errata S0-r), unless p0 is on axis 1: there the cost of a point
-    depends on the value that joint 1 has kept, and the cheapest next point may not be the best. A
-    time of exactly T counts. `above_floor` refuses points for which the tool would dip below the
-    floor on the way. Source: 000, "Нахождение времени", task "сбора". TaskError: p0 on axis 1 and
-    more than NEAREST_LIMIT points (ABOVE_LIMIT with `above_floor`).
+    The cost of a point is the time there and back. The cheapest points come first; of equally cheap
+    ones, the one with the lower index. This is the optimum (errata S0-r), unless p0 is on axis 1:
+    there, the cost of a point depends on the value that joint 1 has kept, and the cheapest next
+    point may not be the best. A time of exactly T is allowed. `above_floor` excludes points for
+    which the tool would dip below the floor on the way. Source: 000, "Нахождение времени", task
+    "сбора". Raises TaskError if p0 is on axis 1 and there are more than NEAREST_LIMIT points
+    (ABOVE_LIMIT with `above_floor`).
     """
     start = instance(task, Task, "task").q[0]
     if np.isnan(start).any():
@@ -64,7 +65,7 @@ def collect(task: Task, *, short_way: bool = False, above_floor: bool = False) -
     if above_floor:
         costs[_dips(task, start, task.q[1:])] = np.inf
     order = costs.argsort()
-    # Costs that differ only by rounding are a tie; after sorting they are adjacent.
+    # Costs that differ only by rounding count as equal; after sorting, they are adjacent.
     rank = np.cumsum(~_nearly_least(costs[order[1:]], costs[order[:-1]]))
     order = order[np.lexsort((order, np.append(0, rank)))]
     times = np.cumsum(costs[order])
@@ -73,27 +74,27 @@ def collect(task: Task, *, short_way: bool = False, above_floor: bool = False) -
 
 
 def visit(task: Task, *, short_way: bool = False, above_floor: bool = False) -> Result:
-    """Go to the nearest point that is not yet visited, with the lower index on a tie, as long as T
-    permits.
+    """Go to the nearest unvisited point (of equally near ones, to the one with the lower index) as
+    long as T permits.
 
     This is greedy, as in the document, and not always optimal (errata S0-q): see `best_visit`. It
     ends when the nearest point does not fit within T, since then none does; the printed program
-    never ends in that case (S0-f). A time of exactly T counts. `above_floor` refuses moves on which
-    the tool would dip below the floor. Source: 000, "Нахождение времени", task "посещения".
-    TaskError: more than NEAREST_LIMIT points (ABOVE_LIMIT with `above_floor`).
+    never ends in that case (S0-f). A time of exactly T is allowed. `above_floor` excludes moves on
+    which the tool would dip below the floor. Source: 000, "Нахождение времени", task "посещения".
+    Raises TaskError if there are more than NEAREST_LIMIT points (ABOVE_LIMIT with `above_floor`).
     """
     return _cheapest_next(instance(task, Task, "task"), short_way, above_floor, back=False)
 
 
 @np.errstate(over="ignore")
 def best_visit(task: Task, *, short_way: bool = False, above_floor: bool = False) -> Result:
-    """The best visit: the most points within T, then the least time, then the lexicographically
-    first order. Times that differ only by rounding (1e-12) count as equal. The document does not
-    have this method.
+    """The best visit: the one with the most points within T, then with the shortest time, then with
+    the lexicographically first order. Times that differ only by rounding (1e-12) count as equal.
+    This method is not in the document.
 
-    It is exact, by dynamic programming over the sets of visited points. ValueError: more than
-    EXACT_LIMIT points, since each additional point doubles the work. `above_floor` is as in
-    `visit`.
+    The result is exact: it is found by dynamic programming over the sets of visited points. Raises
+    ValueError if there are more than EXACT_LIMIT points, since each additional point doubles the
+    work. `above_floor` is as in `visit`.
     """
     n = len(instance(task, Task, "task").points)
     if n > EXACT_LIMIT:
@@ -106,9 +107,9 @@ def best_visit(task: Task, *, short_way: bool = False, above_floor: bool = False
     if above_floor:
         legs[_dips(task, q[:, None], task.q[1:])] = np.inf
 
-    # A set of points is a number with one bit per point. least[here, visited]: the least time to
-    # visit this set and end in this posture. path: the order with that time, its points as the
-    # digits of a number in base 16, so that the lexicographically first of two orders is the
+    # A set of points is a number with one bit per point. least[here, visited] is the shortest time
+    # to visit this set and end in this posture. path is the order with that time, with its points
+    # as the digits of a number in base 16, so that the lexicographically first of two orders is the
     # smaller number.
     sets = np.arange(2**n)
     size = np.bitwise_count(sets)
@@ -143,7 +144,7 @@ def itinerary(task: Task, result: Result, *, short_way: bool = False) -> tuple[F
 
     In "collect" the arm returns to p0 with each point. Between two stops every joint moves at
     constant speed (`np.interp`), so that all arrive together and none exceeds its limit. It is
-    meant for animations. ValueError: a result of another task.
+    meant for animations. Raises ValueError if the result belongs to another task.
     """
     q = stops_of(task, result)
     times = joint_travel_time(q[:-1], q[1:], task.speeds, short_way)
@@ -167,7 +168,7 @@ def stops_of(task: Task, result: Result) -> Floats:
     instance(result, Result, "result")
     n = len(task.points)
     if sorted((*result.order, *result.left)) != list(range(n)):
-        got = f"{len(result.order)} served and {len(result.left)} left"
+        got = f"{len(result.order)} in order and {len(result.left)} in left"
         raise ValueError(f"result: wanted a result of this task with {n} points, got {got}")
     stops = [0]
     for i in result.order:
@@ -177,7 +178,7 @@ def stops_of(task: Task, result: Result) -> Floats:
 
 @np.errstate(over="ignore")
 def fits(times: Floats, T: float) -> Bools:
-    """Which times are within T. A time of exactly T counts, even if it exceeds T by rounding."""
+    """Return whether times are within T. A time that exceeds T only by rounding is within T."""
     return times - T <= ROUNDING * T
 
 
@@ -186,8 +187,8 @@ def fits(times: Floats, T: float) -> Bools:
 
 @np.errstate(over="ignore")
 def _cheapest_next(task: Task, short_way: bool, above_floor: bool, back: bool) -> Result:
-    """Serve the cheapest remaining point repeatedly while it fits within T; with `back`, including
-    the way back to p0.
+    """Repeatedly take the cheapest remaining point while it fits within T. With `back`, its cost
+    includes the way back to p0.
     """
     limit = ABOVE_LIMIT if above_floor else NEAREST_LIMIT
     if (n := len(task.points)) > limit:
@@ -198,8 +199,8 @@ def _cheapest_next(task: Task, short_way: bool, above_floor: bool, back: bool) -
     order: list[int] = []
     times: list[float] = []
     total, here, p0 = 0.0, task.q[0], task.q[0]
-    # The remaining points and their postures, contiguous for each joint; the last point replaces
-    # each one that is served.
+    # The remaining points and their postures, contiguous for each joint. When a point is taken, the
+    # last one moves to its place.
     left, q = np.arange(n), np.array(task.q[1:], order="F")
     while len(left):
         costs = joint_travel_time(here, q, task.speeds, short_way)
@@ -225,8 +226,9 @@ def _cheapest_next(task: Task, short_way: bool, above_floor: bool, back: bool) -
 
 
 def _settled(q: Floats) -> Floats:
-    """Fill in the free joints of the postures q (k, 3) on a path with the value of the previous
-    stop; at the beginning with that of the first stop that has one; 0 if none has.
+    """Fill in the free joints of the postures q (k, 3) on a path with their values at the previous
+    stop. At the beginning, use the value at the first stop where the joint is not free, or 0 if
+    there is none.
     """
     q = q.copy()
     for joint in range(3):
@@ -239,12 +241,12 @@ def _settled(q: Floats) -> Floats:
 
 
 def _standings(task: Task) -> tuple[Ints, Floats, Ints]:
-    """All postures in which the arm of a task can stop, the start first: the point (k,) of each, -1
-    for the start; the posture (k, 3); and the index of the posture in which it arrives at every
-    point from each of them (k, n).
+    """All postures in which the arm of a task can stop, the start first: the index of the point
+    (k,) for each posture, -1 for the start; the postures (k, 3); and, for each posture and each
+    point, the index (k, n) of the posture in which the arm arrives there.
 
-    A point off axis 1 has one posture; a point on it has one for each value that joint 1 can arrive
-    with.
+    A point off axis 1 has one posture; a point on it has one for each value that joint 1 can have
+    on arrival.
     """
     point, q = [-1], [task.q[0]]
     lands: list[list[int]] = []
@@ -261,14 +263,14 @@ def _standings(task: Task) -> tuple[Ints, Floats, Ints]:
 
 
 def _dips(task: Task, start: Floats, end: Floats) -> Bools:
-    """Whether the tool dips below the floor on the moves from start to end (..., 3): bool (...)."""
+    """Return whether the tool dips below the floor on the moves from start to end (..., 3)."""
     return lowest_place(task.l1, task.l2, start, end, below=0) < -UNDER * (task.l1 + task.l2)
 
 
 @np.errstate(over="ignore")
 def _nearly_least(times: Floats, least: Floats) -> Bools:
-    """Which times are equal to the least one; times that differ only by rounding count as equal, so
-    that every processor agrees.
+    """Return whether times equal the least one. Times that differ only by rounding count as equal,
+    so that the result is the same on every processor.
     """
     return times <= least * (1 + ROUNDING)
 

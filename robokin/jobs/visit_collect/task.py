@@ -16,15 +16,15 @@ from ..._validate import masked, short, text
 from .arm import LONGEST, SHORTEST, misfit, principal_postures, reasons_outside, workspace
 
 KEYS = ("L1", "L2", "T", "q'", "p0", "pi", "task")
-# These limits keep every call to a few seconds:
-TASK_LIMIT = 300_000  # greatest number of points in a task
-FILE_LIMIT = 40_000_000  # greatest number of bytes in a file
-# These limits keep messages readable:
-FAULTS_SHOWN = 10  # greatest number of faults of one kind that are listed
+# With these limits, every call takes at most a few seconds:
+TASK_LIMIT = 300_000  # maximum number of points in a task
+FILE_LIMIT = 40_000_000  # maximum number of bytes in a file
+# With this limit, messages remain readable:
+FAULTS_SHOWN = 10  # maximum number of faults of one kind that are listed
 
 
 class TaskError(ValueError):
-    """Raised for a task that cannot be solved; `faults` holds all reasons, one string each."""
+    """Raised for a task that cannot be solved; `faults` contains all reasons as strings."""
 
     def __init__(self, faults: Iterable[str]) -> None:
         self.faults = tuple(faults)
@@ -33,12 +33,12 @@ class TaskError(ValueError):
 
 @dataclass(frozen=True, eq=False, init=False)
 class Task(Sealed):
-    """A checked, read-only task: links l1, l2 (m), time T (s), greatest joint speeds (3,) in rad/s,
-    start p0 (3,) and points (n, 3) in metres, kind "visit" or "collect". `remarks` are sentences on
-    oddities of its file, for the report. `q` (1 + n, 3) are the `principal_postures` of p0 and of
-    the points.
+    """A checked, read-only task: links l1, l2 (m), time T (s), maximum joint speeds (3,) in rad/s,
+    start p0 (3,) and points (n, 3) in metres, kind "visit" or "collect". `remarks` are sentences
+    about anomalies in its file, for the report. `q` (1 + n, 3) are the `principal_postures` of p0
+    and of the points.
 
-    TaskError: it lists all faults, see `faults`.
+    Raises TaskError, which lists all faults, if there are any (see `faults`).
 
     >>> task = Task(5, 4, 10, [0.2] * 3, [1, 1, 1], [[2, 3, 2], [1, 3, 3]], "visit")
     >>> visit(task).order
@@ -84,7 +84,8 @@ class Task(Sealed):
 
 
 def read_task(path: str | os.PathLike[str]) -> Task:
-    """Read the task in a JSON file. TaskError: it lists all faults, whatever the file contains.
+    """Read the task in a JSON file. Raises TaskError, which lists all faults, if it is not a valid
+    task.
 
     A duplicate key is a fault. Unknown keys are ignored and listed in the task's `remarks`.
     """
@@ -101,12 +102,12 @@ def read_task(path: str | os.PathLike[str]) -> Task:
 
 
 def faults(data: Any) -> list[str]:
-    """All faults of a task as read from its file, a dict with the keys KEYS: a list of strings,
-    empty if there are none.
+    """All faults of a task, as a list of strings; it is empty if there are none. `data` is the task
+    as read from its file, a dict with the keys KEYS.
 
     Other keys are ignored. If the points and the lengths are valid, the points are checked against
-    the workspace, numbered as in the document: 0 is p0, and 1 is pi[0]. The first ten faults of one
-    kind are listed, and the rest are counted.
+    the workspace. They are numbered as in the document: 0 is p0, and 1 is pi[0]. The first ten
+    faults of one kind are listed, and the rest are counted.
     """
     if not isinstance(data, dict):
         return [f"wanted an object with the keys {', '.join(KEYS)}, got {short(data)}"]
@@ -135,7 +136,7 @@ def faults(data: Any) -> list[str]:
 
 
 def and_more(count: int, shown: int, template: str) -> str:
-    """Insert the number of items not shown into {} of the template; "" if all are shown."""
+    """Insert the number of items not shown in place of {} in the template; "" if all are shown."""
     return template.format(f"{count - shown} more") if count > shown else ""
 
 
@@ -148,8 +149,8 @@ def coordinates(point: Floats) -> str:
 
 
 def _unreachable(l1: float, l2: float, numbers: Sequence[int], p: Floats) -> list[str]:
-    """The faults of those points p (n, 3) that the arm cannot serve, with their numbers in the
-    document.
+    """The faults of the points p (n, 3) that the arm cannot reach. `numbers` are the numbers of the
+    points in the document.
     """
 
     def named(i: int) -> str:
@@ -184,8 +185,8 @@ def _unreachable(l1: float, l2: float, numbers: Sequence[int], p: Floats) -> lis
 
 
 def _parsed(path: str | os.PathLike[str]) -> tuple[Any, Counter[str]]:
-    """Return the content of a JSON file, and how often its outermost object contains each key.
-    TaskError: the file cannot be read.
+    """Return the content of a JSON file, and the number of times that its outermost object contains
+    each key. Raises TaskError if the file cannot be read.
     """
     if not isinstance(path, (str, os.PathLike)):
         raise TypeError(f"path: wanted a path, got {short(path)}")
@@ -242,7 +243,7 @@ def _triple(value: Any) -> bool:
     return isinstance(value, list) and len(value) == 3 and all(map(_number, value))
 
 
-# key -> its check, and a description of the wanted value
+# for each key, the check of its value and a description of valid values
 RULES: dict[str, tuple[Callable[[Any], bool], str]] = {
     **dict.fromkeys(
         ("L1", "L2"),
@@ -266,8 +267,8 @@ RULES: dict[str, tuple[Callable[[Any], bool], str]] = {
 
 
 def _plain(value: Any, depth: int = 2) -> Any:
-    """Convert arrays and tuples, as a lab passes them, to lists as in a file. Values that are
-    too large or not numbers are unchanged; `faults` refuses them.
+    """Convert arrays and tuples, which labs pass, to lists as in a file. Values that are too large
+    or are not numbers remain unchanged; `faults` reports them.
     """
     if isinstance(value, (np.ndarray, np.generic)):
         fit = value.dtype.kind not in "mM" and value.size <= 3 * TASK_LIMIT

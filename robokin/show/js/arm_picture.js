@@ -1,4 +1,4 @@
-// An arm as a scene shows it: its links and joints, its path, and its shadow on the floor.
+// Draws an arm in a scene: its links and joints, its path, and its shadow on the floor.
 
 import {movedTo} from "./camera.js";
 import {clear, colors, jointColor, polygon, shape, spot, stroke} from "./canvas.js";
@@ -12,13 +12,13 @@ import {triad} from "./triad.js";
 
 /** @typedef {ReturnType<typeof stood>} Stood  an arm in its place, and the pen that draws it */
 /**
- * A straight piece of an arm; `rod`: whether it is part of a prismatic joint.
+ * A straight piece of an arm. `rod` says whether it is part of a prismatic joint.
  * @typedef {[from: Point, to: Point, rod: boolean]} Limb
  */
 
 /**
- * An arm that is ready to draw: a pen in the coordinates of its base, the data of Shown, its frames
- * and limbs.
+ * Prepares an arm for drawing. The result contains a pen in the coordinates of the arm's base, the
+ * data of Shown, and the frames and limbs of the arm.
  * @param {Pen} pen
  * @param {Shown} arm
  * @param {Point} [base]
@@ -58,7 +58,8 @@ export function drawRods({g, cam, chain, joints, thick, scene, rods, past = []},
 }
 
 /**
- * Draws the arm, below it the whole path, and above it the part of the path already travelled.
+ * Draws the whole path, then the arm, and then the part of the path that has already been
+ * travelled.
  * @param {Stood} one
  */
 export function drawStood(one) {
@@ -185,7 +186,8 @@ function raised([p, q, rod]) {
 }
 
 /**
- * Draws links and joints, the farther ones first; joints only above the height `from`.
+ * Draws links and joints, the farthest first, but only those joints that are above the height
+ * `from`.
  * @param {Context} g
  * @param {Camera} cam
  * @param {PageLink[]} chain
@@ -252,7 +254,7 @@ function drum(g, cam, p, axis, radius, color) {
   const facing = Math.abs(dot(axis, cam.toward)),
     angle = Math.atan2(dy, dx);
   const half = 0.85 * radius * long,
-    side = dot(axis, cam.toward) > 0 ? 1 : -1; // `half`: half its length on the screen
+    side = dot(axis, cam.toward) > 0 ? 1 : -1; // `half` is half the drum's length on screen
   g.save();
   g.translate(cx, cy);
   g.rotate(angle);

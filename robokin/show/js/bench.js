@@ -1,4 +1,4 @@
-// The bench of the motor explorer: its motor, the run of pulses, and the current state of the
+// The state of the motor explorer: its motor, the run of pulses, and the current state of the
 // rotor. The model is in rotor.js.
 
 import {advance, atRest, pull, ramp, resting, run} from "./rotor.js";
@@ -7,8 +7,8 @@ import {advance, atRest, pull, ramp, resting, run} from "./rotor.js";
 /** @import {Motor, Run} from "./rotor.js" */
 
 const SLOW = 20; // slow-motion factor for a single pulse or a released rotor
-const SHOWN = 8; // seconds that the display of a run takes
-const LONG = 2; // motor seconds: a rotor that does not come to rest is not shown for longer
+const SHOWN = 8; // seconds: the time in which a run is displayed
+const LONG = 2; // seconds of motor time: the longest time for which a moving rotor is shown
 
 /** @type {(list: number[]) => number} */
 export const lastOf = list => list[list.length - 1];
@@ -18,13 +18,13 @@ export class Bench {
   constructor(data) {
     this.data = data;
     this.state = {...data.opening, sign: 1};
-    /** `time`: the time of the run in s. If `shown`, the picture shows the run at that time. */
+    /** `time` is the time in the run in s. If `shown`, the picture shows the run at that time. */
     this.clock = {time: 0, playing: false, shown: false};
     this.motor = this.built();
     this.live = atRest(this.motor, 0);
     this.sent = 0;
     this.held = false;
-    this.since = LONG; // motor seconds since the reader touched the motor
+    this.since = LONG; // seconds of motor time since the reader touched the motor
     this.last = 0; // time of the last frame, ms
     /** @type {?Run} */
     this.found = null;
@@ -66,7 +66,7 @@ export class Bench {
     return ramp(this.data.pulses, Math.min(this.value("start"), end), end, this.value("ramp"));
   }
 
-  /** The run with the current choice, computed on demand. */
+  /** The run with the current settings, computed on demand. */
   run() {
     this.found ??= run(this.motor, this.times(), this.state.sign);
     return this.found;
@@ -94,7 +94,7 @@ export class Bench {
     return this.motor.load > this.motor.torque * Math.sqrt(x * x + y * y);
   }
 
-  /** Reacts to a changed choice; if `other`, the motor has changed and starts from rest. */
+  /** Reacts to a changed setting. If `other`, the motor has changed and starts from rest. */
   change(other = false) {
     this.motor = this.built();
     this.found = null;
@@ -108,7 +108,7 @@ export class Bench {
     [this.live, this.sent, this.since] = [atRest(this.motor, 0), 0, LONG];
   }
 
-  /** Ends the display of a run, since the reader has touched something, and frees the rotor. */
+  /** Stops displaying a run and releases the rotor, since the reader has touched something. */
   wake() {
     Object.assign(this.clock, {time: 0, playing: false, shown: false});
     this.since = 0;
@@ -135,7 +135,7 @@ export class Bench {
     this.wake();
   }
 
-  /** Advances to the time of a frame; returns whether to draw another. @param {number} now  ms */
+  /** Advances to the time of a frame; returns whether another is needed. @param {number} now  ms */
   moment(now) {
     const passed = this.since === 0 ? 1 / 60 : Math.min(0.05, (now - this.last) / 1000);
     this.last = now;

@@ -6,7 +6,7 @@ import {rint} from "./kinematics.js";
 /** @typedef {Object<string, string | number>} Facts  the values for the blanks, by name */
 
 /**
- * A sentence with its blanks filled.
+ * Fills in the blanks of a sentence.
  * @param {string} sentence
  * @param {Facts} facts
  * @returns {string}
@@ -15,7 +15,7 @@ export const fill = (sentence, facts) =>
   sentence.replace(/\{(\w+)\}/g, (_, name) => String(facts[name]));
 
 /**
- * A number with one decimal, as in Python, which rounds a half to even.
+ * Formats a number with one decimal, as in Python, which rounds a half to even.
  * @param {number} x
  */
 export const oneDecimal = x => ((4 * x) % 1 === 0 ? rint(10 * x) / 10 : x).toFixed(1);

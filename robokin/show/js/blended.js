@@ -1,24 +1,33 @@
-// A blended motion, with the data of its curves and sentences.
+// A blended motion, with the data for its curves and sentences.
 
 import {follow, onward} from "./branches.js";
+import {number} from "./canvas.js";
 import {ik, singularities} from "./geometries.js";
-import {fk, origin, plus} from "./kinematics.js";
+import {distance, fk, origin} from "./kinematics.js";
 import {blend, linear, quintic, refinedMaximum, trapezoidal} from "./motion.js";
 import {peaks, timeOf} from "./peaks.js";
 import {record} from "./recorded.js";
 
-/** @import {PagePose} from "./page.js" */
-/** @import {Asked, MotionData} from "./motion_explorer.js" */
+/** @import {MotionPage, PagePose} from "./page.js" */
+/** @import {Point} from "./canvas.js" */
+/** @import {Asked, State} from "./motion_parts.js" */
 
 /** @typedef {ReturnType<typeof motionOf>} Motion */
+/** @typedef {{place: Point, text: string}} Near  where a path passes the via point, and how far */
+/**
+ * The greatest speeds and accelerations of a motion. If `sure`, they include those between the
+ * samples.
+ * @typedef {{sure: boolean, values: number[][]}} Tops
+ */
 
 const LAWS = {quintic, trapezoidal, linear};
 
 /**
- * The motion for the current settings: the findings of `record`, times, joint values, positions
- * of the tool, the distance from via; the samples after which its curves break, the pose at a time,
- * and the times at which an acceleration may jump.
- * @param {MotionData} data
+ * Computes the motion for the current settings: the findings of `record`, the times, the joint
+ * values, the positions of the tool, where the path passes the via point, the samples after which
+ * the curves break, a function that returns the pose at a time, and the times at which an
+ * acceleration may jump.
+ * @param {MotionPage} data
  * @param {Asked} state
  */
 export function motionOf(data, state) {
@@ -52,16 +61,16 @@ export function motionOf(data, state) {
 }
 
 /**
- * The greatest speeds and accelerations, including those between the samples; null if the motion is
- * broken or passes a singularity, or if one of them does not converge.
- * @param {MotionData} data
+ * The greatest speeds and accelerations, including those between the samples. The result is null if
+ * the motion is broken or passes a singularity, or if the search for one of them does not converge.
+ * @param {MotionPage} data
  * @param {Motion} motion
  * @param {number[][]} sampled
  */
 export function topsOf({arm, units, samples}, {t, q, missing, gaps, poseAt, times}, sampled) {
   if (gaps.size || missing[0]) return null;
   const step = t[1];
-  // a posture, with NaN at a singularity, where free joints may have any value
+  // the posture; NaN at a singularity, where free joints may have any value
   /** @type {(x: number) => number[]} */
   const posture = x => {
     const near = q[Math.min(Math.round(x / step), samples - 1)],
@@ -77,7 +86,7 @@ export function topsOf({arm, units, samples}, {t, q, missing, gaps, poseAt, time
 }
 
 /**
- * The greatest absolute value of joint j, NaN if there is none.
+ * The greatest absolute value of joint j; NaN if there is none.
  * @type {(rows: number[][], j: number) => number}
  */
 export const most = (rows, j) =>
@@ -86,36 +95,67 @@ export const most = (rows, j) =>
     NaN,
   );
 
-/** @type {(unit: {size: number}) => number} */
-export const nearDecimals = unit => (unit.size < 1 ? 1 : 3);
+/**
+ * `now()` returns the motion for the current settings, and computes it again if they have changed.
+ * `tops(held)` returns its greatest speeds and accelerations.
+ * @param {MotionPage} data
+ * @param {State} state
+ */
+export function motions(data, state) {
+  let known = "";
+  /** @type {?Motion} */
+  let found = null;
+  /** @type {?number[][]} */
+  let refined = null;
+  const now = () => {
+    const {time, playing, ...asked} = state, // the clock alone does not change the motion
+      key = JSON.stringify(asked);
+    if (!found || key !== known) [known, found, refined] = [key, motionOf(data, state), null];
+    return found;
+  };
+  return {
+    now,
+    /** @type {(held: boolean) => Tops} */
+    tops(held) {
+      const motion = now(),
+        {v, a} = motion,
+        sampled = [v, a].map(rows => data.units.map(({size}, j) => most(rows, j) / size));
+      if (!held) refined ??= topsOf(data, motion, sampled);
+      return {sure: refined !== null, values: refined ?? sampled};
+    },
+  };
+}
 
 /**
- * The distance of the path from the via station in the unit shown, also between the samples.
- * Infinity if there is no path.
- * @param {MotionData} data
+ * The place of the path nearest to the via point, also between the samples; null if there is no
+ * path.
+ * @param {MotionPage} data
  * @param {PagePose} via
  * @param {(x: number) => PagePose} poseAt
  * @param {number[]} t
  * @param {boolean[]} missing
+ * @returns {?Near}
  */
 function passing({unit}, via, poseAt, t, missing) {
-  /** @type {(place: number[], from: number[]) => number} */
-  const apart = (place, from) => Math.hypot(...plus(place, from, -1)) / unit.size;
-  const places = t.map(x => poseAt(x).place),
-    far = places.map(place => apart(place, via.place));
+  const decimals = unit.size < 1 ? 1 : 3,
+    places = t.map(x => poseAt(x).place),
+    far = places.map(place => distance(place, via.place) / unit.size);
   const steps = far.flatMap((_, i) => (i && !missing[i] && !missing[i - 1] ? [i] : []));
-  let least = Math.min(...steps.flatMap(i => [far[i - 1], far[i]]));
-  // only these steps are long enough for the path to come nearer to via than at the samples
+  let least = Infinity,
+    at = NaN;
+  for (const i of steps.flatMap(i => [i - 1, i])) if (far[i] < least) [least, at] = [far[i], t[i]];
+  // only in these steps can the path come nearer to the via point than at the samples
   for (const i of steps.filter(
-    k => Math.min(far[k - 1], far[k]) - apart(places[k], places[k - 1]) < least,
+    k => Math.min(far[k - 1], far[k]) - distance(places[k], places[k - 1]) / unit.size < least,
   )) {
-    const away = -refinedMaximum(
-      x => -apart(poseAt(x).place, via.place),
+    const nearest = refinedMaximum(
+      x => -distance(poseAt(x).place, via.place) / unit.size,
       t[i - 1],
       t[i],
-      nearDecimals(unit),
+      decimals,
     );
-    if (away < least) least = away;
+    if (-nearest.value < least) [least, at] = [-nearest.value, nearest.at];
   }
-  return least;
+  if (!steps.length) return null;
+  return {place: poseAt(at).place, text: `${number(least, decimals)} ${unit.name}`};
 }

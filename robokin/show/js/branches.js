@@ -1,4 +1,4 @@
-// The choice among the rows of `ik`, and sentences about them, as in branches.py and explanations.py.
+// Chooses among the rows of `ik` and describes them, as in branches.py and explanations.py.
 
 import {TURN, wrapped} from "./kinematics.js";
 import {exists, leastTravel} from "./rows.js";
@@ -23,8 +23,8 @@ const choose = (arm, q, previous) => geometryOf(arm).choose(arm, q, previous);
 const room = ({limits, tolerances: {SLACK}}, j) => [limits[j][0] - SLACK, limits[j][1] + SLACK];
 
 /**
- * Which joints of the posture q are within their limits; a revolute joint may be at q or any number
- * of whole turns away from it.
+ * For each joint of the posture q, whether it is within its limits. A revolute joint may be at q or
+ * any number of whole turns away from it.
  * @param {ArmData} arm
  * @param {number[]} q
  * @returns {boolean[]}
@@ -35,6 +35,20 @@ export const within = (arm, q) =>
     if (arm.prismatic[j]) return value >= low && value <= high;
     return value + TURN * Math.ceil((low - value) / TURN) <= high;
   });
+
+/**
+ * Which of some joints is nearest to one of its limits, to which one (0 lower, 1 upper), and how far
+ * it is from it.
+ * @param {ArmData} arm
+ * @param {number[]} q
+ * @param {number[]} joints  at least one
+ */
+export const nearestLimit = (arm, q, joints) =>
+  joints
+    .flatMap(joint =>
+      arm.limits[joint].map((limit, side) => ({joint, side, room: Math.abs(limit - q[joint])})),
+    )
+    .reduce((least, one) => (one.room < least.room ? one : least));
 
 /**
  * For each revolute joint the value nearest to `near` that differs from q by whole turns.
@@ -61,8 +75,8 @@ const inside = (arm, q, near) =>
   });
 
 /**
- * The joint values to show to readers: inside the limits and nearest to q, otherwise those that
- * exceed the limits least.
+ * The joint values to show to readers: those inside the limits that are nearest to q or, if there
+ * are none, those that exceed the limits least.
  * @param {ArmData} arm
  * @param {number[]} q
  * @returns {number[]}
@@ -78,8 +92,8 @@ export const representative = (arm, q) =>
   });
 
 /**
- * The row with the least travel from q, each joint inside its limits if possible; NaN if there is
- * none.
+ * The row with the least travel from q, with each joint inside its limits if possible; NaN if there
+ * is no row.
  * @param {ArmData} arm
  * @param {number[][]} rows
  * @param {number[]} q
@@ -92,8 +106,8 @@ export const nearest = (arm, rows, q) =>
   );
 
 /**
- * The start of a motion along one row: joints that a singularity leaves free there take their
- * values from the first sample that determines them.
+ * The first posture of a motion along one row. Joints that are free there, because the posture is
+ * singular, take their values from the first sample that determines them.
  * @param {ArmData} arm
  * @param {number[][]} track
  */
@@ -104,7 +118,7 @@ function start(arm, track) {
       arm,
       q,
       q.map((value, j) => value + j),
-    ); // different shifts, so that no two cancel
+    ); // different shifts, so that no two of them cancel
     return chosen.every((value, j) => Math.abs(value - q[j]) <= 1e-12);
   });
   const q = choose(arm, first, later || first).map(value => (Number.isNaN(value) ? 0 : value));
@@ -112,7 +126,7 @@ function start(arm, track) {
 }
 
 /**
- * The next posture after `before`: the row with the least travel, NaN if there is none.
+ * The next posture after `before`: the row with the least travel; NaN if there is none.
  * @param {ArmData} arm
  * @param {number[][]} rows
  * @param {number[]} before
@@ -125,8 +139,8 @@ export const onward = (arm, rows, before) =>
   );
 
 /**
- * One continuous motion through the rows of `ik` along a path: it starts on `row`, then each sample
- * takes the row nearest to the sample before it. NaN where no row exists.
+ * One continuous motion through the rows of `ik` along a path. It starts on `row`, and each further
+ * sample takes the row nearest to the sample before it. Samples without rows are NaN.
  * @param {ArmData} arm
  * @param {number[][][]} samples  the rows of each sample
  * @param {number} row
@@ -146,12 +160,12 @@ export function follow(arm, samples, row) {
 }
 
 /**
- * By how much joint j is past its limit, as text.
+ * Says by how much joint j exceeds its limit.
  * @param {ClosedFormArm} arm
  * @param {number[]} q
  * @param {number} j
  */
-function excess(arm, q, j) {
+export function excess(arm, q, j) {
   const [low, high] = arm.limits[j],
     value = representative(arm, q)[j],
     {name, size} = arm.units[j];
@@ -165,7 +179,8 @@ function excess(arm, q, j) {
 }
 
 /**
- * Says in one sentence whether a row of `ik` is usable, and if not, why, worded as in Python.
+ * Says in one sentence whether a row of `ik` is usable and, if it is not, why. The sentences are
+ * the same as in Python.
  * @param {ClosedFormArm} arm
  * @param {PagePose} pose
  * @param {number} row

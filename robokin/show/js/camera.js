@@ -1,7 +1,7 @@
 // The camera of a page, which converts metres in base coordinates to CSS pixels on a canvas. (For
 // figures see camera.py and scene.py.)
 
-import {dot, plus} from "./kinematics.js";
+import {cross, dot, plus} from "./kinematics.js";
 
 /** @import {Box, Pixel, Point} from "./canvas.js" */
 
@@ -22,14 +22,23 @@ import {dot, plus} from "./kinematics.js";
  * @param {Box} box
  * @returns {Camera}
  */
-export function camera([azimuth, elevation], corners, [left, top, width, height]) {
+export function camera([azimuth, elevation], corners, box) {
   const ca = Math.cos(azimuth),
     sa = Math.sin(azimuth),
     ce = Math.cos(elevation),
     se = Math.sin(elevation);
-  const right = [-sa, ca, 0],
-    up = [-se * ca, -se * sa, ce],
-    toward = [ce * ca, ce * sa, se];
+  return facing([-sa, ca, 0], [-se * ca, -se * sa, ce], corners, box);
+}
+
+/**
+ * The same for a picture in which these perpendicular unit vectors point to the right and up.
+ * @param {Point} right
+ * @param {Point} up
+ * @param {Point[]} corners
+ * @param {Box} box
+ * @returns {Camera}
+ */
+export function facing(right, up, corners, [left, top, width, height]) {
   const xs = corners.map(p => dot(p, right)),
     ys = corners.map(p => dot(p, up));
   const x0 = Math.min(...xs),
@@ -41,7 +50,7 @@ export function camera([azimuth, elevation], corners, [left, top, width, height]
     cy = top + height / 2 + (scale * (y0 + y1)) / 2;
   return {
     scale,
-    toward,
+    toward: cross(right, up),
     to: p => [cx + scale * dot(p, right), cy - scale * dot(p, up)],
     along: v => [scale * dot(v, right), -scale * dot(v, up)],
     across: (dx, dy) => right.map((r, k) => (dx * r - dy * up[k]) / scale),

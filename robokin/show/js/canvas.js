@@ -79,9 +79,9 @@ export const clear = (color, share) =>
     .padStart(2, "0");
 
 /**
- * The cleared context of a canvas, sized for its place on the page at the screen's resolution (at
- * most two by two device pixels per CSS pixel); null if the canvas currently has no size, in which
- * case it keeps its picture.
+ * Returns the context of a canvas, which is cleared and has the size of its place on the page at
+ * the screen's resolution (at most two by two device pixels per CSS pixel). If the canvas currently
+ * has no size, it keeps its picture, and the result is null.
  * @param {HTMLCanvasElement} canvas
  * @returns {?[Context, number, number]} context, width and height
  */
@@ -210,7 +210,7 @@ export function write(g, text, x, y, color = colors.ink, size = 12, align = "lef
 }
 
 /**
- * A number with this many decimals, a real minus sign and no negative zero.
+ * Formats a number with this many decimals, a real minus sign and no negative zero.
  * @param {number} x
  * @param {number} decimals
  */

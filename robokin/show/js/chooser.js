@@ -1,19 +1,21 @@
-// The choice of the handles that stand, for a scene without room for all of them.
+// Chooses which handles are shown in a scene that has no room for all of them.
 
 import {control, element} from "./elements.js";
 
-/** Whether handles and controls have the size of a finger. The style sheets have the same rule. */
+/**
+ * Whether handles and controls are large enough for a finger. The style sheets have the same rule.
+ */
 export const large = () => matchMedia("(pointer: coarse), (max-width: 699px)").matches;
 
 const ROOM = 520; // px: a narrower scene has no room for many large handles
-const FEW = 4; // handles that have room in every scene
+const FEW = 4; // the number of handles for which every scene has room
 
 /**
- * Buttons, one for each group of handles; the handles of the chosen group stand.
+ * Buttons, one for each group of handles. The handles of the chosen group are shown.
  *
- * set(groups)     the group of each handle
+ * set(groups)     sets the group of each handle
  * update(width)   shows the buttons if a scene of this width needs them; call it before `stands`
- * stands(group)   whether the handles of this group stand
+ * stands(group)   returns whether the handles of this group are shown
  *
  * @param {() => void} changed  called when the reader has chosen
  */

@@ -16,7 +16,7 @@ const TICKS = 400,
 /** @typedef {ReturnType<typeof runningClock>} Clock */
 
 /**
- * @param {?{play: string, pause: string}} [names]  the button text; by default it has an icon
+ * @param {?{play: string, pause: string}} [names]  the button text; without it, there is an icon
  */
 export function clockRow(names = null) {
   const icon = element("span"),
@@ -44,8 +44,8 @@ export function clockRow(names = null) {
 }
 
 /**
- * pass(now): advances the time; set(time): goes to this time and stops; tell(): shows the time on
- * the page.
+ * Runs a clock. `pass(now)` advances the time, `set(time)` goes to this time and stops, and
+ * `tell()` shows the time on the page.
  * @param {ClockParts} parts
  * @param {HTMLElement} frame  the element in which the Space key plays and pauses
  * @param {{time: number, playing: boolean}} state
@@ -68,8 +68,8 @@ export function runningClock(parts, frame, state, span, ask, pace = () => 1) {
   function pass(now) {
     if (!state.playing) return;
     const end = span()[1];
-    // The first time stamp may be before the click, and a view that was hidden for a while
-    // continues where it was.
+    // The first time stamp may be before the click. A view that was hidden for a while continues
+    // where it was.
     const passed = Math.min(500, Math.max(0, now - before)) / 1000;
     state.time = Math.min(end, state.time + passed * pace() * SPEEDS[+parts.speed.value]);
     before = Math.max(before, now);

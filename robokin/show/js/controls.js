@@ -1,4 +1,4 @@
-// Canvases: turning the view by dragging, and choosing a time.
+// Lets a reader turn the view of a canvas by dragging, or choose a time on a canvas.
 
 import {control} from "./elements.js";
 

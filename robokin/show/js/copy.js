@@ -3,7 +3,7 @@
 import {control} from "./elements.js";
 
 /**
- * @param {Record<string, string>} words  the text of the button: `copy`, and `copied` once it has
+ * @param {Record<string, string>} words  the text of the button: `copy`, and `copied` after it has
  *   copied
  * @param {() => string} text
  */
@@ -14,8 +14,8 @@ export function copyButton(words, text) {
     try {
       await navigator.clipboard.writeText(text());
     } catch {
-      // a page from a file is not allowed to use the clipboard API: use the deprecated command or,
-      // if that fails too, let the reader copy
+      // a page opened from a file may not use the clipboard API: use the deprecated command or, if
+      // that fails too, let the reader copy the text
       area.value = text();
       button.after(area);
       area.select();

@@ -8,12 +8,12 @@ import {dashes, drawPanel, FAINT, strength} from "./panel.js";
 /** @import {Panel, Place, Times} from "./panel.js" */
 
 /**
- * Panels with a common time axis. `large`: the index of the large one; `names`: the names of the
- * arms, if there are several.
+ * Panels with a common time axis. `large` is the index of the large panel. `names` contains the
+ * names of the arms if there are several.
  * @typedef {{panels: Panel[], large: number, names: string[]}} Curves
  */
 /** @typedef {ReturnType<typeof curvesView>} CurvesView */
-/** @typedef {{text: string, color: string, width: number, dash: number[]}} Entry  of a legend */
+/** @typedef {{text: string, color: string, width: number, dash: number[]}} Entry  in a legend */
 
 const HEAD = 22, // px: the height of the name above a plot
   LEAST = 34, // px: the height of a small plot
@@ -23,12 +23,13 @@ const HEAD = 22, // px: the height of the name above a plot
  * Draws panels.
  *
  * draw(curves, times, ticks, now)  draws one picture
- * timeAt(x)                        the time at a place on the canvas
+ * timeAt(x)                        returns the time at a place on the canvas
  *
  * @param {HTMLCanvasElement} canvas
  * @param {number[][]} patterns  the dashes of the joints' lines
+ * @param {string} [unit]  the unit of the common axis, if this is not the time
  */
-export function curvesView(canvas, patterns) {
+export function curvesView(canvas, patterns, unit = "s") {
   let span = [0, 1, 0, 1]; // left, width, first and last time
 
   /**
@@ -57,7 +58,7 @@ export function curvesView(canvas, patterns) {
       drawPanel({g, patterns, times, x, sides, several: names.length > 1}, panels[k], ticks, now);
       top += HEAD + height;
     }
-    tellTimes(g, ticks, [t0, t1], x, end + 16);
+    tellTimes(g, ticks, [t0, t1], x, end + 16, unit);
   }
 
   return {
@@ -71,9 +72,9 @@ export function curvesView(canvas, patterns) {
 }
 
 /**
- * [index, height of the plot] of the panels for which there is room: always the large one, which
- * gets at least half, and as many of the others as fit, from the first one on. Without a large one
- * (-1) all have the same height.
+ * Returns [index, height of the plot] of the panels for which there is room: always the large
+ * panel, which gets at least half of the room, and as many of the others as fit, beginning with the
+ * first. If there is no large panel (-1), all panels have the same height.
  * @param {number} count
  * @param {number} large
  * @param {number} room
@@ -98,15 +99,17 @@ export function heights(count, large, room) {
  * @param {[first: number, last: number]} span
  * @param {Place} x
  * @param {number} y
+ * @param {string} name  of the unit
  */
-function tellTimes(g, [first, step, count, decimals], [t0, t1], x, y) {
+function tellTimes(g, [first, step, count, decimals], [t0, t1], x, y, name) {
   for (let i = 0; i < count; i++) {
     const t = first + i * step;
     if (t < t0 - 1e-9 || t > t1 + 1e-9) continue;
-    const unit = t + step > t1 + 1e-9 ? " s" : "";
+    const unit = t + step > t1 + 1e-9 ? ` ${name}` : "";
     const text = number(t, decimals) + unit;
     g.font = font(11);
-    const most = g.canvas.clientWidth - 2 - g.measureText(text).width / 2; // inside the canvas
+    // keeps the text inside the canvas
+    const most = g.canvas.clientWidth - 2 - g.measureText(text).width / 2;
     write(g, text, Math.min(most, x(t) + (unit ? 4 : 0)), y, colors.soft, 11, "center");
   }
 }

@@ -1,5 +1,5 @@
-// The Jacobian, and what follows from it: how far a singularity is, and the ellipsoid of tool
-// velocities. The reference is in arms/arm.py and arms/dexterity.py.
+// The Jacobian and results that follow from it: joint speeds, the distance from a singularity, and
+// the ellipsoid of tool velocities. The reference is in arms/arm.py and arms/dexterity.py.
 
 import {cross, frames, origin, plus, turned} from "./kinematics.js";
 
@@ -25,6 +25,32 @@ export function jacobian(chain, q) {
 }
 
 /**
+ * The joint speeds of an arm with six joints that give the flange a velocity. They are not finite
+ * where the Jacobian has no inverse.
+ * @param {PageLink[]} chain
+ * @param {number[]} q
+ * @param {number[]} velocity  m/s, then rad/s
+ * @returns {number[]}  rad/s, m/s if prismatic
+ */
+export function jointSpeeds(chain, q, velocity) {
+  const rows = jacobian(chain, q).map((row, i) => [...row, velocity[i]]);
+  for (let k = 0; k < rows.length; k++) {
+    // Gauss-Jordan elimination; of the remaining rows the one with the largest pivot is next
+    const next = rows.reduce(
+      (best, row, i) => (i > k && Math.abs(row[k]) > Math.abs(rows[best][k]) ? i : best),
+      k,
+    );
+    [rows[k], rows[next]] = [rows[next], rows[k]];
+    const pivot = rows[k];
+    for (const row of rows) {
+      const share = row === pivot ? 0 : row[k] / pivot[k];
+      for (let j = k; j < row.length; j++) row[j] -= share * pivot[j];
+    }
+  }
+  return rows.map((row, k) => row[row.length - 1] / row[k]);
+}
+
+/**
  * @param {number[]} a
  * @param {number[]} b
  */
@@ -32,8 +58,8 @@ const inner = (a, b) => a.reduce((sum, x, k) => sum + x * b[k], 0);
 
 /**
  * Rotates vectors in pairs until all are perpendicular (one-sided Jacobi, Hestenes 1958), and
- * returns them, their lengths, and the rows of the rotation. The lengths are the singular values,
- * accurate to the last digits even near zero, where the root of an eigenvalue is not.
+ * returns them, their lengths, and the rows of the rotation. The lengths are the singular values.
+ * They are accurate to the last digits even near zero, unlike the square roots of eigenvalues.
  * @param {number[][]} vectors
  */
 function squared(vectors) {
@@ -63,8 +89,8 @@ function squared(vectors) {
 }
 
 /**
- * How slowly the tool moves in its worst direction: the smallest singular value of the Jacobian,
- * with lengths divided by the arm's reach; 0 is a singularity; NaN in, NaN out.
+ * The smallest singular value of the Jacobian, with lengths divided by the arm's reach. It says how
+ * slowly the tool moves in its worst direction, and is 0 at a singularity. It is NaN if q has NaN.
  * @param {ArmData} arm
  * @param {number[]} q
  * @returns {number}
@@ -81,9 +107,9 @@ export function distance_from_singularity(arm, q) {
 }
 
 /**
- * The semi-axes of the ellipsoid of tool velocities for joint speeds of norm 1: rad/s, and reaches
- * per second for prismatic joints. With `held`, of the joint speeds that do not rotate the tool, as
- * in velocity_ellipsoid of dexterity.py.
+ * The semi-axes of the ellipsoid of tool velocities for joint speeds of norm 1, in rad/s or, for
+ * prismatic joints, in multiples of the arm's reach per second. With `held`, only joint speeds that
+ * do not rotate the tool are included, as in velocity_ellipsoid of dexterity.py.
  * @param {ArmData} arm
  * @param {number[]} q
  * @param {boolean} held

@@ -1,10 +1,10 @@
-// Elements of a page, and the search for those that wait for a view.
+// Creates elements of a page, and finds the placeholders of a view.
 
 /** @typedef {Record<string, string | number>} Attributes */
 
 /**
- * The elements of the page that wait for this view. Each is returned only once; a page may have two
- * of them for the same view.
+ * Returns the placeholders of this view in the page. Each is returned only once; a page may have
+ * two of them for the same view.
  * @param {string} id
  * @returns {HTMLElement[]}
  */

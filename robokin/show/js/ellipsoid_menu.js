@@ -1,4 +1,4 @@
-// The menu of the ellipsoid of tool velocities, and the ellipsoid that it chooses.
+// The menu for the ellipsoid of tool velocities, and the ellipsoid that is selected in it.
 
 import {ellipsoid} from "./dexterity.js";
 import {fill} from "./blanks.js";
@@ -8,7 +8,7 @@ import {menu} from "./stage.js";
 /** @import {ArmData, ArmPage} from "./page.js" */
 
 /**
- * A menu: no ellipsoid, the tool may turn, or its orientation is held.
+ * A menu with three options: no ellipsoid, the tool may turn, or its orientation is held.
  * @param {ArmPage} data
  * @param {() => void} changed
  */
@@ -21,8 +21,9 @@ export function ellipsoidMenu({arm, words, unit}, changed) {
   return {
     row,
     /**
-     * The semi-axes to draw, and their lengths as text. The ellipsoid of the free tool has the same
-     * size in every posture; the other one is inside it.
+     * The semi-axes to draw, and their lengths as text. In the picture, the ellipsoid of a tool
+     * that may turn has the same size in every posture. The ellipsoid of a tool whose orientation
+     * is held is drawn to the same scale.
      * @param {number[]} q
      */
     at(q) {

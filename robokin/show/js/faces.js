@@ -10,7 +10,7 @@ import {dot} from "./kinematics.js";
 /** @type {Kind<PageFaces>} */
 export const faces = {
   seen: ({corners}) => corners.flat(),
-  /** Draws the farther polygons first. */
+  /** Draws the polygons, the farthest first. */
   below({g, cam}, things) {
     /** @type {(face: Point[]) => number} */
     const depth = face => face.reduce((sum, p) => sum + dot(p, cam.toward), 0) / face.length;

@@ -1,8 +1,9 @@
 // The inverse kinematics and the singularities of every geometry (for three levers see levers.js),
 // as in arms/elbow.py, spherical_wrist.py, scara.py and two_link.py, which are the reference.
 //
-// Only + - * / and sqrt decide whether a row exists, in Python's order of operations, so that both
-// agree to the last bit. Math.hypot, ** and Math.round differ from NumPy and are not used.
+// The scripts decide whether a row exists with + - * / and sqrt only, in the same order as Python,
+// so that both agree to the last bit. Math.hypot, ** and Math.round differ from NumPy and are not
+// used.
 
 import {matrix, origin, product, wrapped} from "./kinematics.js";
 import {distance2, nowhere} from "./rows.js";
@@ -19,8 +20,9 @@ import {SIGNS, twoLevers, worst} from "./two_levers.js";
 /** @typedef {Object<string, boolean>} Held  which singularities a posture has */
 /** @typedef {{q: number[], plane: Pair, ahead: Pair}} ElbowRow */
 /**
- * The functions of one geometry: the rows of `ik`; the singularities of q; q with the joints that
- * are free there as in the previous posture; and why a row is missing.
+ * The functions of one geometry. `ik` returns the rows, `held` the singularities of q, `choose` q
+ * with the joints that are free there as in the previous posture, and `gap` the reason why a row is
+ * missing.
  * @template {Inverse} G
  * @typedef {{
  *   ik(arm: ArmOf<G>, pose: PagePose): number[][],
@@ -40,7 +42,7 @@ const onward = ([cosine, sine], [c, s]) =>
   s === 0 && c === 1 ? [cosine, sine] : [cosine * c - sine * s, sine * c + cosine * s];
 
 /**
- * The angle opposite to q, within half a turn.
+ * The angle half a turn away from q, between -pi and pi.
  * @param {number} q
  */
 const opposite = q => (q < 0 || Object.is(q, -0) ? q + Math.PI : q - Math.PI);
@@ -48,9 +50,8 @@ const opposite = q => (q < 0 || Object.is(q, -0) ? q + Math.PI : q - Math.PI);
 // --- Three joints that place a point: `Elbow` ----------------------------------------------------
 
 /**
- * For each pair of flags (front/back, elbow), as in Elbow.solve: null, or {q, plane, ahead} with
- * the joint values and the directions (cosine, sine) of the arm's plane and of the forearm's
- * elevation.
+ * For each pair of flags (front/back, elbow), null or {q, plane, ahead}, as in Elbow.solve: the
+ * joint values and the directions (cosine, sine) of the arm's plane and of the forearm's elevation.
  * @param {ArmOf<ElbowInverse | WristInverse>} arm
  * @param {number[]} place
  * @returns {(?ElbowRow)[]}
@@ -89,7 +90,7 @@ function elbowRows({geometry: {elbow: e, turns}, tolerances}, [x, y, z]) {
         const c = along * u + across * w,
           s = along * w - across * u,
           length = Math.sqrt(c * c + s * s);
-        // equal links that are folded leave joint 2 free
+        // joint 2 is free if the links have equal lengths and are folded
         const [cosA, sinA] = length === 0 ? [1, s] : [c / length, s / length];
 
         const [cos2, sin2] = onward([cosA, sinA], turns.upper);
@@ -162,7 +163,7 @@ const elbow = {
 };
 
 /**
- * The wrist's own frame at the tool, as 12 numbers, with the wrist centre as its origin.
+ * The frame of the wrist for a pose of the flange, as 12 numbers. Its origin is the wrist centre.
  * @param {ArmOf<WristInverse>} arm
  * @param {TransformPose} pose
  */
@@ -184,7 +185,7 @@ const wrist = {
       m = wristFrame(arm, pose);
     return elbowRows(arm, origin(m)).flatMap(row => {
       if (!row) return [nowhere(6), nowhere(6)];
-      // seen from the forearm: axis 4 points forward by ce, up by se
+      // in the frame of the forearm, axis 4 points forward by ce and up by se
       const [cos1, sin1] = row.plane,
         [ce, se] = onward(row.ahead, turns.axis4);
       /** @type {(k: number) => number} */
@@ -225,7 +226,7 @@ const wrist = {
 };
 
 /**
- * Whether equal links are folded and leave joint 1 free.
+ * Whether two links of equal lengths are folded, so that joint 1 is free.
  * @param {number} one
  * @param {number} two
  * @param {number} q2
@@ -322,7 +323,7 @@ export const geometryOf = arm =>
 export const ik = (arm, pose) => geometryOf(arm).ik(arm, pose);
 
 /**
- * Which singularities the posture q has.
+ * The singularities that the posture q has.
  * @param {ArmData} arm
  * @param {number[]} q
  * @returns {Held}

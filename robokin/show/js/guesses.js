@@ -4,8 +4,8 @@
 /** @typedef {[string, string, string]} Made  a prediction, the choice, and its time */
 /**
  * The detail of the event "robokin-guess" of a question; the hub that handles the event cancels it.
- * `path`: the path of the notebook, "" or null if the page does not contain it. `tell` is called
- * once: without an argument, or with the reason for a failure.
+ * `path` is the path of the notebook, or "" or null if the page does not contain it. `tell` is
+ * called once, without an argument or with the reason for a failure.
  * @typedef {{path: ?string, guesses: Made[], tell: (error?: string) => void}} Offer
  */
 /**
@@ -25,8 +25,8 @@
 const hubs = (Object(globalThis).robokinHubs ??= new Set());
 
 /**
- * The hub of the notebook at `path`; if the page or the hub does not know a path, the only hub
- * there is.
+ * The hub of the notebook at `path`. If the page or the hub does not know its path, this is the
+ * only existing hub.
  * @param {?string} path
  */
 function hubOf(path) {

@@ -1,5 +1,5 @@
-// Handles to drag things in a scene. They are buttons over the canvas, so that touching one does
-// not scroll the page, the keyboard reaches it, and it has a name.
+// Handles for dragging things in a scene. They are buttons over the canvas, so that touching one
+// does not scroll the page, the keyboard can reach it, and a screen reader can name it.
 
 import {cross, dot, plus} from "./kinematics.js";
 import {handleChooser, large} from "./chooser.js";
@@ -19,21 +19,21 @@ export const reachOf = camera => (large() ? 84 : 60) / camera.scale;
 /**
  * @typedef {object} Handle
  * @property {string} id
- * @property {string} [group]  the handles that stand together where there is no room for all
+ * @property {string} [group]  its group; where there is no room for all handles, one group is shown
  * @property {string} name  its name for a screen reader: "target along x"
  * @property {string} look  the class of the button: rk-free, rk-arrow, rk-arc or rk-joint
  * @property {string} [mark]  a letter on it
  * @property {Color} [color]  a colour name of palette.py
  * @property {(camera: Camera) => Point} at  its place
  * @property {() => string} value  its current value, as text
- * @property {(camera: Camera) => Drag} grab  called when it is grabbed; returns a function that is
+ * @property {(camera: Camera) => Drag} grab  called when it is grabbed; returns a function to be
  *   called with the displacement of the pointer since then
  * @property {(right: number, up: number, big: boolean) => void} step  reacts to an arrow key
  * @property {() => void} home  moves it back to where it began
  */
 /** @typedef {ReturnType<typeof handleLayer>} HandleLayer */
 
-/** @typedef {Handle & {node: HTMLElement, shift: Pixel}} Shown  `shift`: its offset */
+/** @typedef {Handle & {node: HTMLElement, shift: Pixel}} Shown  `shift` is its offset */
 /**
  * The callbacks of the buttons in a layer.
  * @typedef {object} Hand
@@ -148,11 +148,11 @@ function button(handle, {camera, hold, changed}) {
 }
 
 /**
- * Puts a button at the place of its handle, wholly inside the scene: a handle beyond its edge is at
- * the edge, and can still be dragged.
+ * Puts a button at the place of its handle. If this place is outside the scene, the button is at
+ * the edge, where it can still be dragged.
  * @param {Shown} handle
  * @param {Camera} camera
- * @param {?Pixel[]} taken  the places to keep away from; null if it is held
+ * @param {?Pixel[]} taken  the places to avoid; null if the handle is held
  * @param {HTMLElement} canvas
  */
 function placed(handle, camera, taken, canvas) {
@@ -205,8 +205,8 @@ function apart(place, taken, room, inside) {
 }
 
 /**
- * A drag that changes one number whose handle moves along a curve: the component of the pointer's
- * motion along the curve's direction on the screen, updated as the handle moves.
+ * A drag that changes one number, whose handle moves along a curve. The handle stays at the point
+ * of the curve that is nearest to the pointer on the screen.
  * @param {Camera} camera
  * @param {(value: number) => Point} place  the place of the handle for a value
  * @param {number} value  its value at the start
@@ -218,9 +218,9 @@ export function alongCurve(camera, place, value, step) {
   let now = value;
   return (dx, dy) => {
     const wanted = [start[0] + dx, start[1] + dy];
-    // Newton steps to the point of the curve nearest to the pointer, but none where the curve
-    // points at the camera. They need the curvature: without it a pointer far outside a ring would
-    // make them oscillate.
+    // Newton steps to the point of the curve that is nearest to the pointer. No step is made where
+    // the curve points at the camera. The steps include the curvature; without it, they would
+    // oscillate if the pointer is far outside a ring.
     for (let i = 0; i < 40; i++) {
       const [before, here, after] = [-step, 0, step].map(x => camera.to(place(now + x)));
       const along = [0, 1].map(k => (after[k] - before[k]) / (2 * step));

@@ -14,7 +14,7 @@ const EACH = 205, // px: the height of a panel with its name
   MOST = 495; // px: the height of all panels, so that a figure with three fits on the screen
 
 /**
- * Builds the view in every place that waits for this id.
+ * Builds the view in every placeholder with this id.
  * @param {string} id
  * @param {PageCurves} data
  */

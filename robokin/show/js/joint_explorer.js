@@ -26,7 +26,7 @@ import {degrees, inUnits, rollPitchYaw} from "./turns.js";
 /** @typedef {JointPage} JointExplorer */
 
 /**
- * Builds the view in every element that waits for this id.
+ * Builds the view in every placeholder with this id.
  * @param {string} id
  * @param {JointExplorer} data
  */
@@ -143,7 +143,7 @@ function jointHandle({arm, words, units, controls, q: home}, rings, state, j) {
 }
 
 /**
- * The wrist centre, from its place in flange coordinates.
+ * The wrist centre in base coordinates, from its place in flange coordinates.
  * @param {ArmData} arm
  * @param {number[]} q
  * @param {Point} wrist

@@ -1,4 +1,4 @@
-// The rings of the joint explorer: where they stand, and how they look.
+// The rings of the joint explorer: their places and their style.
 
 import {clear, jointColor, stroke} from "./canvas.js";
 import {reachOf, squareTo} from "./handles.js";
@@ -9,20 +9,21 @@ import {IDENTITY, cross, dot, frames, origin, plus, turned} from "./kinematics.j
 /** @import {Context, Point} from "./canvas.js" */
 
 /**
- * The place of a ring on its joint: it is moved by `slide` (-1, 0 or 1) times a reach along the
- * axis, less the distance `gap` (m) that is already there; `spoke` (unit vector in the frame that
- * the joint moves) points from the axis to the handle.
+ * The place of a ring on its joint. Its distance from the joint along the axis is `slide` (-1, 0 or
+ * 1) times a reach, less the distance `gap` (m), by which the joints are already apart. `spoke` (a
+ * unit vector in the frame that the joint moves) points from the axis to the handle.
  * @typedef {{slide: number, gap: number, spoke: Point}} Ring
  */
 
 const RADIUS = 0.47,
-  SLIDE = 0.68; // of the reach of a handle: see reachOf
-const CROWDED = 0.2; // reaches of the arm: joints that are nearer to each other share a place
+  SLIDE = 0.68; // fractions of the reach of a handle: see reachOf
+const CROWDED = 0.2; // joints nearer than this fraction of the arm's reach are close together
 
 /**
- * The rings of an arm. Joints that are close together, such as those of a wrist, get theirs at
- * different places of their axes: the first joint before, the last one behind the others. This
- * depends on the links only, so that a ring does not jump while a joint moves.
+ * The rings of an arm. If joints are close together, as in a wrist, their rings are at different
+ * places along their axes: the ring of the first joint is in front of the others, and that of the
+ * last joint is behind them. The places depend only on the links, so that a ring does not jump
+ * while a joint moves.
  * @param {PageLink[]} chain
  * @param {number} reach
  * @returns {Ring[]}
@@ -55,7 +56,8 @@ export function ringsOf(chain, reach) {
 }
 
 /**
- * The sign of the direction of `way` along a unit vector; 0 if it leads elsewhere, 1 if it is zero.
+ * The sign of the component of `way` along a unit vector: 0 if `way` has another direction, 1 if it
+ * is zero.
  * @param {Point} axis
  * @param {Point} way
  */
@@ -83,7 +85,7 @@ function besides(axis, link, before) {
 }
 
 /**
- * The place of the ring of joint i: its centre, and the handle on it; a prismatic joint has its
+ * The place of the ring of joint i: its centre, and the handle on it. A prismatic joint has its
  * handle on its axis.
  * @param {PageLink[]} chain
  * @param {Ring[]} rings

@@ -3,6 +3,7 @@
 import {faces} from "./faces.js";
 import {mark} from "./mark.js";
 import {target} from "./target.js";
+import {zone} from "./zone.js";
 
 /** The kinds of things, in the order in which they are drawn. */
-export const kinds = {faces, mark, target};
+export const kinds = {faces, zone, mark, target};

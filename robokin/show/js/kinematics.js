@@ -1,5 +1,6 @@
-// Chains: rigid transforms as 12 numbers (the rows of [R | p]), rotations as quaternions [w, x, y,
-// z], and the frames of a posture. The reference is in quaternion.py, transform.py and arms/arm.py.
+// Kinematic chains: rigid transforms as 12 numbers (the rows of [R | p]), rotations as quaternions
+// [w, x, y, z], and the frames of a posture. The reference is in quaternion.py, transform.py and
+// arms/arm.py.
 //
 // A pose is {rotation, place} (target "Transform"), {place, angle} ("ScaraPose") or {place}
 // ("point"). An arm is the result of `arm_data` in twin.py; the scripts contain no arm data.
@@ -63,8 +64,9 @@ export function motion({axis: [x, y, z], prismatic}, q) {
 }
 
 /**
- * The frames of a posture: the base and the frame after each link, of which the last is the flange.
- * If given, `joints` and `moved` receive the frame of each joint before and after its own motion.
+ * The frames of a posture: the base and the frame after each link, the last of which is the flange.
+ * If they are given, `joints` and `moved` receive the frame of each joint before and after its own
+ * motion.
  * @param {PageLink[]} chain
  * @param {number[]} q
  * @param {number[][]} [joints]
@@ -136,7 +138,7 @@ export function rint(x) {
 export const wrapped = (angle, near = 0) => angle - TURN * rint((angle - near) / TURN);
 
 /**
- * Hamilton's product: first b, then a.
+ * The Hamilton product: first b, then a.
  * @param {number[]} a
  * @param {number[]} b
  * @returns {number[]}
@@ -220,7 +222,7 @@ export function slerp(a, b, s) {
     less = 0,
     more = 0;
   for (let i = 0; i < 4; i++) same += a[i] * b[i];
-  // the margin keeps rounding errors from choosing the direction of a half turn
+  // so that rounding errors do not determine the direction of a half turn
   const sign = same < -1e-14 ? -1 : 1;
   for (let i = 0; i < 4; i++) {
     const apart = a[i] - sign * b[i],

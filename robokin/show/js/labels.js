@@ -7,7 +7,8 @@ import {font, hit, write} from "./canvas.js";
 /** @typedef {{text: string, at: Pixel, color: string, weight?: string}} Label */
 
 /**
- * Writes each label next to its point, where it least covers other labels, lines and the edge.
+ * Writes each label next to its point, where it covers as little as possible of other labels, lines
+ * and the edge.
  * @param {Context} g
  * @param {Label[]} labels
  * @param {Pixel[]} taken

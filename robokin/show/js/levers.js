@@ -1,7 +1,8 @@
 // Three levers: a family of postures for one point, as in planar.py, which is the reference.
 //
-// Only + - * / and sqrt decide whether a row exists, in Python's order of operations, so that both
-// agree to the last bit. Math.hypot, ** and Math.round differ from NumPy and are not used.
+// The scripts decide whether a row exists with + - * / and sqrt only, in the same order as Python,
+// so that both agree to the last bit. Math.hypot, ** and Math.round differ from NumPy and are not
+// used.
 
 import {clamp, distance2, leastTravel, nowhere} from "./rows.js";
 
@@ -11,7 +12,8 @@ import {clamp, distance2, leastTravel, nowhere} from "./rows.js";
 /** @typedef {ArmOf<ThreeLeverInverse>} ThreeLeverArm */
 
 /**
- * By how much the sum of two sides exceeds the third, rounded in the same way for every angle.
+ * The amount by which the sum of two sides exceeds the third, rounded in the same way for every
+ * angle.
  * @param {number} a
  * @param {number} b
  * @param {number} c
@@ -52,7 +54,7 @@ const beside = (a, b, angle) =>
   (Math.PI - angle) / 2 + Math.atan2((b - a) * Math.cos(angle / 2), (b + a) * Math.sin(angle / 2));
 
 /**
- * The distance KO and the direction phi of a point, NaN if it is out of reach.
+ * The distance KO and the direction phi of a point; NaN if it is out of reach.
  * @param {ThreeLeverArm} arm
  * @param {{place: number[]}} point
  * @returns {[number, number]}
@@ -64,7 +66,8 @@ function polar({geometry: {lever, inner, reach}, tolerances: {ROUNDING}}, {place
 }
 
 /**
- * The alpha at which O, B and A are in line, or 0 if the levers need not stretch.
+ * The alpha at which O, B and A are in line, or 0 if the point is near enough to be reached with
+ * alpha = 0.
  * @param {ThreeLeverArm} arm
  * @param {number} KO
  */
@@ -104,7 +107,7 @@ function leverPosture(arm, KO, phi, alpha) {
 }
 
 /**
- * The alpha for the angle KOB, NaN if there is none.
+ * The alpha for the angle KOB; NaN if there is none.
  * @param {ThreeLeverArm} arm
  * @param {number} KO
  * @param {number} gamma1
@@ -127,7 +130,7 @@ function alphaOfGamma(
 }
 
 /**
- * The same arm with other lengths of the levers OB, BA, AK in metres, as in planar.py.
+ * The same arm with different lengths (m) of the levers OB, BA and AK, as in planar.py.
  * @param {ThreeLeverArm} arm
  * @param {number[]} levers
  * @returns {ThreeLeverArm}
@@ -151,8 +154,8 @@ export function withLevers(arm, levers) {
 }
 
 /**
- * The lowest and the highest alpha with which the arm reaches a point, NaN if there is none. With
- * `limited` gamma also stays within 0 to 180 degrees.
+ * The lowest and the highest alpha with which the arm reaches a point; NaN if there is none. With
+ * `limited`, gamma also stays within 0 to 180 degrees.
  * @param {ThreeLeverArm} arm
  * @param {{place: number[]}} point
  * @param {boolean} [limited]
@@ -179,7 +182,7 @@ export function alpha_range(arm, point, limited = true) {
 }
 
 /**
- * The posture (gamma, beta, alpha) that reaches a point with the free angle alpha, NaN if there is
+ * The posture (gamma, beta, alpha) that reaches a point with the free angle alpha; NaN if there is
  * none.
  * @param {ThreeLeverArm} arm
  * @param {{place: number[]}} point
@@ -209,9 +212,9 @@ function slopes(arm, KO, each) {
 }
 
 /**
- * Six alphas: the first and the last at which each of the three sums of `slopes` is stationary.
- * (For equal levers only the first sum has a minimum; planar.py finds it in a different way,
- * accurate to half the digits.)
+ * Six values of alpha: the first and the last at which each of the three sums of `slopes` is
+ * stationary. (For equal levers, only the first sum has a minimum; planar.py finds it in a
+ * different way, with half as many accurate digits.)
  * @param {ThreeLeverArm} arm
  * @param {number} KO
  * @param {number} low
@@ -235,8 +238,8 @@ function level(arm, KO, low, high) {
 }
 
 /**
- * The posture at a point with the smallest sum S of the absolute angle changes from `previous`. It
- * compares the kinks, the ends and the stationary points of S as a function of alpha.
+ * The posture at a point with the smallest sum S of the absolute angle changes from `previous`. The
+ * function compares the kinks, the ends and the stationary points of S as a function of alpha.
  * @param {ThreeLeverArm} arm
  * @param {{place: number[]}} point
  * @param {number[]} previous
@@ -244,25 +247,13 @@ function level(arm, KO, low, high) {
  * @returns {number[]}
  */
 export function least(arm, point, previous, limited = true) {
-  const {
-      geometry: {
-        levers: [a, b, c],
-      },
-      tolerances,
-    } = arm,
-    [gamma0, beta0, alpha0] = previous;
   const [KO, phi] = polar(arm, point),
     [low, high] = alpha_range(arm, point, limited);
   if (Number.isNaN(low)) return nowhere(3);
-  const BAO = beside(b, a, beta0),
-    atA = angleOf(across(a, b, beta0), c, KO, tolerances);
   const alphas = [
     low,
     high,
-    alpha0,
-    alphaOfGamma(arm, KO, gamma0 - phi),
-    BAO + atA,
-    BAO - atA,
+    ...keeping(arm, KO, phi, previous).map(({alpha}) => alpha),
     ...level(arm, KO, low, high),
   ];
   const rows = alphas.map(alpha =>
@@ -270,3 +261,48 @@ export function least(arm, point, previous, limited = true) {
   );
   return leastTravel(rows, previous);
 }
+
+/** @typedef {{alpha: number, joint: number}} Kink  the joint, from 0, keeps its angle at alpha */
+
+/**
+ * The alphas at which an angle may keep its previous value, NaN if there is none.
+ * @param {ThreeLeverArm} arm
+ * @param {number} KO
+ * @param {number} phi
+ * @param {number[]} previous
+ * @returns {Kink[]}
+ */
+function keeping(arm, KO, phi, [gamma0, beta0, alpha0]) {
+  const {
+    geometry: {
+      levers: [a, b, c],
+    },
+    tolerances,
+  } = arm;
+  const BAO = beside(b, a, beta0),
+    atA = angleOf(across(a, b, beta0), c, KO, tolerances);
+  return [
+    {alpha: alpha0, joint: 2},
+    {alpha: alphaOfGamma(arm, KO, gamma0 - phi), joint: 0},
+    {alpha: BAO + atA, joint: 1},
+    {alpha: BAO - atA, joint: 1},
+  ];
+}
+
+/**
+ * The kinks of S as a function of alpha.
+ * @param {ThreeLeverArm} arm
+ * @param {{place: number[]}} point
+ * @param {number[]} previous
+ * @returns {Kink[]}
+ */
+export function kinks(arm, point, previous) {
+  const [KO, phi] = polar(arm, point),
+    [low, high] = alpha_range(arm, point);
+  return keeping(arm, KO, phi, previous).filter(({alpha, joint}) => {
+    const q = leverPosture(arm, KO, phi, alpha);
+    return alpha >= low && alpha <= high && Math.abs(q[joint] - previous[joint]) < KEPT;
+  });
+}
+// rad: an angle that has changed by less than this has kept its value
+export const KEPT = 1e-6;

@@ -1,40 +1,30 @@
 // The explorer of an arm that reaches a point with a family of postures. The reader drags the
-// point, chooses the free angle on the curve of its cost, and sets the lengths of levers with
-// sliders. All text and the arm data come from Python (page.py: LeversPage).
+// point, chooses the free angle on the curve of its cost or at the joint, and sets the lengths of
+// levers with sliders. All text and the arm data come from Python (page.py: LeversPage).
 
-import {plus} from "./kinematics.js";
-import {alpha_range, family, least, withLevers} from "./levers.js";
-import {fill} from "./blanks.js";
-import {colors, number, prepared, spot, stroke, upright, write} from "./canvas.js";
+import {alpha_range, family, KEPT, kinks, least, withLevers} from "./levers.js";
+import {drawCosts, total} from "./levers_curve.js";
+import {alphaHandle, pointHandle} from "./levers_handles.js";
+import {fill, inWords} from "./blanks.js";
+import {number} from "./canvas.js";
 import {copyButton} from "./copy.js";
 import {scrubbing} from "./controls.js";
 import {element, waiting} from "./elements.js";
-import {inScreen} from "./handles.js";
+import {distance2} from "./rows.js";
 import {slider, stageOf, wordButton} from "./stage.js";
 import {degrees, inCode, lengths, plain, radians} from "./turns.js";
 import {point} from "./mark.js";
 
 /** @import {LeversPage} from "./page.js" */
-/** @import {Pixel, Point} from "./canvas.js" */
-/** @import {Handle} from "./handles.js" */
+/** @import {Point} from "./canvas.js" */
 /** @import {ThreeLeverArm} from "./levers.js" */
+/** @import {Costs} from "./levers_curve.js" */
 /** @import {Stage} from "./stage.js" */
 
 /** @typedef {LeversPage & {arm: ThreeLeverArm}} LeversExplorer */
-/**
- * The cost of the free angle alpha: its range, its value, the best value, the limits of its joint,
- * and the cost `at` any value.
- * @typedef {object} Costs
- * @property {number} low
- * @property {number} high
- * @property {number} alpha
- * @property {number} best
- * @property {number[]} limits
- * @property {(alpha: number) => number} at
- */
 
 /**
- * Builds the view in every element that waits for this id.
+ * Builds the view in every placeholder with this id.
  * @param {string} id
  * @param {LeversExplorer} data
  */
@@ -42,46 +32,44 @@ export const explore = (id, data) =>
   waiting(id).forEach(root => leversExplorer(stageOf(root, data), data));
 
 /**
- * The reader's settings: the point, the previous posture, the free angle, the arm.
+ * The reader's settings: the point, the previous posture, the free angle, the arm; the index of
+ * the target, and the sum of the angle changes on the way to the targets before it.
  * @typedef {object} State
  * @property {Point} place
  * @property {number[]} before
  * @property {number} alpha
  * @property {ThreeLeverArm} arm
+ * @property {number} task
+ * @property {number} turned
  */
+
+/** The first settings, except for the arm. @param {LeversExplorer} data */
+const opening = ({targets, q}) => ({
+  place: [...targets[0].place],
+  before: [...q],
+  alpha: q[2],
+  task: 0,
+  turned: 0,
+});
 
 /**
  * @param {Stage} stage
  * @param {LeversExplorer} data
  */
 function leversExplorer(stage, data) {
-  const {words: says} = data,
-    home = data.target.place;
+  const {words: says} = data;
   /** @type {State} */
-  const state = {place: [...home], before: [...data.q], alpha: data.q[2], arm: data.arm};
+  const state = {arm: data.arm, ...opening(data)};
   const sliders = slidersOf(stage, data, state),
-    canvas = element("canvas", {class: "rk-curves", role: "img", "aria-label": says.costs});
+    canvas = element("canvas", {class: "rk-curves", role: "img"}),
+    scene = stage.space.querySelector("canvas");
   /** @type {ReturnType<typeof drawCosts>} */
   let shown = null;
-  /** @type {(text: string, act: () => void) => HTMLElement} */
-  const button = (text, act) =>
-    wordButton(text, () => {
-      act();
-      stage.changed();
-    });
+  /** @type {?Costs} */
+  let costs = null;
   stage.side.append(
     ...sliders.rows,
-    element(
-      "div",
-      {class: "rk-row"},
-      button(says.least, () => {
-        state.alpha = least(state.arm, state, state.before)[2];
-      }),
-      button(says.begin, () => {
-        if (shown) state.before = family(state.arm, state, state.alpha);
-      }),
-      copyButton(says, () => pythonOf(data, state)),
-    ),
+    buttons(stage, data, state, () => costs),
     canvas,
     stage.says,
   );
@@ -89,23 +77,69 @@ function leversExplorer(stage, data) {
     if (shown) state.alpha = shown.alphaAt(event.offsetX);
     stage.changed();
   });
-  stage.handles.set([pointHandle(data, state, home)]);
+  if (data.curve.terms.length) stage.space.parentElement?.classList.add("rk-even");
+  stage.handles.set([alphaHandle(data, state), pointHandle(data, state)]);
 
-  /** @type {?Costs} */
-  let costs = null;
   stage.run(
     () => {
       costs = costsOf(state);
       sliders.tell();
-      stage.say(costs ? told(says, state, costs) : says.outside);
-      stage.scene.things = [point(says.target, state.place)];
+      const text = costs ? told(data, state, costs) : outside(data, state);
+      stage.say(text);
+      scene?.setAttribute("aria-label", `${data.title}. ${text}`);
+      canvas.setAttribute("aria-label", costs ? heard(data, costs) : text);
+      const rest = data.targets.slice(state.task + 1);
+      stage.scene.things = [
+        point(says.target, state.place),
+        ...rest.map(({place}) => point(says.nextTarget, place)),
+      ];
       return [armOf(state, costs)];
     },
     [canvas],
     () => {
-      shown = drawCosts(canvas, says, costs);
+      shown = drawCosts(canvas, data.curve, costs);
     },
   );
+}
+
+/**
+ * The buttons: least S, begin with this posture, begin again, copy.
+ * @param {Stage} stage
+ * @param {LeversExplorer} data
+ * @param {State} state
+ * @param {() => ?Costs} costs  those of the last picture
+ */
+function buttons(stage, data, state, costs) {
+  const {words: says, targets} = data;
+  /** @type {(text: string, act: (now: Costs) => void) => HTMLElement} */
+  const button = (text, act) =>
+    wordButton(text, () => {
+      const now = costs();
+      if (now) act(now);
+      stage.changed();
+    });
+  const row = element(
+    "div",
+    {class: "rk-row"},
+    button(says.least, ({best}) => {
+      state.alpha = best[2];
+    }),
+    button(says.begin, ({q, changes}) => {
+      state.turned += total(changes);
+      state.before = [...q];
+      state.task += 1;
+      if (state.task < targets.length) state.place = [...targets[state.task].place];
+    }),
+  );
+  if (data.curve.terms.length)
+    row.append(
+      wordButton(says.again, () => {
+        Object.assign(state, opening(data));
+        stage.changed();
+      }),
+    );
+  row.append(copyButton(says, () => pythonOf(data, state)));
+  return row;
 }
 
 /**
@@ -144,7 +178,7 @@ function slidersOf(stage, {unit, controls}, state) {
 }
 
 /**
- * The cost of alpha at the point, with alpha moved into its range; null if no posture reaches the
+ * The cost of alpha at the point, with alpha clamped to its range; null if no posture reaches the
  * point.
  * @param {State} state
  * @returns {?Costs}
@@ -154,36 +188,82 @@ function costsOf(state) {
     [low, high] = alpha_range(arm, state);
   if (Number.isNaN(low)) return null;
   state.alpha = Math.min(Math.max(state.alpha, low), high);
+  /** @type {(q: number[]) => number[]} */
+  const changed = q => q.map((x, j) => Math.abs(x - before[j]));
+  const q = family(arm, state, state.alpha),
+    best = least(arm, state, before);
   return {
     low,
     high,
     alpha: state.alpha,
-    best: least(arm, state, before)[2],
     limits: arm.limits[2],
-    at: alpha => travel(family(arm, state, alpha), before),
+    q,
+    changes: changed(q),
+    best,
+    fewest: changed(best),
+    kinks: kinks(arm, state, before),
+    at: alpha => changed(family(arm, state, alpha)),
   };
 }
 
-/** @type {(q: number[], from: number[]) => number} */
-const travel = (q, from) => q.reduce((sum, x, j) => sum + Math.abs(x - from[j]), 0);
+/** @type {(angle: number) => string} */
+const inDegrees = angle => number(degrees(angle), 1);
 
 /**
- * @param {LeversExplorer["words"]} says
+ * The posture and its cost, and the least cost, as text.
+ * @param {LeversExplorer} data
  * @param {State} state
  * @param {Costs} costs
  */
-function told(says, state, {alpha, best, at}) {
-  /** @type {(angle: number) => string} */
-  const text = angle => number(degrees(angle), 1);
-  const [gamma, beta, last] = family(state.arm, state, alpha).map(text);
-  return fill(says.costSays, {
-    gamma,
-    beta,
-    alpha: last,
-    S: text(at(alpha)),
-    best: text(best),
-    least: text(travel(least(state.arm, state, state.before), state.before)),
-  });
+function told({words: says, curve}, {task, turned}, {q, changes, best, fewest, low, high}) {
+  const [gamma, beta, alpha] = q.map(inDegrees),
+    least = {best: inDegrees(best[2]), least: inDegrees(total(fewest))},
+    S = inDegrees(total(changes));
+  if (!curve.terms.length) return fill(says.costSays, {gamma, beta, alpha, S, ...least});
+  const kept = ["gamma", "beta", "alpha"].filter((_, j) => fewest[j] < KEPT),
+    ends = [low, high].some(end => Math.abs(end - best[2]) < KEPT);
+  const why = kept.length
+    ? fill(kept.length > 1 ? says.stay : says.stays, {names: kept.join(says.and)})
+    : ends
+      ? says.atEnd
+      : says.isLevel;
+  const terms = changes.map(change => `${inDegrees(change)}\u00B0`).join(" + ");
+  const longest = inDegrees(Math.max(...changes));
+  const sum = task ? {before: inDegrees(turned), all: inDegrees(turned + total(changes))} : null;
+  return (
+    fill(says.termSays, {gamma, beta, alpha, S, terms, longest, ...least, why}) +
+    (sum ? fill(says.sumSays, sum) : "")
+  );
+}
+
+/**
+ * What the curve shows, for a screen reader.
+ * @param {LeversExplorer} data
+ * @param {Costs} costs
+ */
+function heard({words: says, curve}, {low, high, kinks, best, fewest}) {
+  const names = ["gamma", "beta", "alpha"],
+    ends = {low: inDegrees(low), high: inDegrees(high)};
+  const places = kinks.map(({alpha, joint}) =>
+    fill(says.kink, {name: names[joint], alpha: inDegrees(alpha)}),
+  );
+  return [
+    fill(says.curveSays, {...ends, least: inDegrees(total(fewest)), best: inDegrees(best[2])}),
+    ...(curve.terms.length ? places : []),
+  ].join(" ");
+}
+
+/**
+ * Why no posture reaches the point, as `out_of_reach` of planar.py.
+ * @param {LeversExplorer} data
+ * @param {State} state
+ */
+function outside({words: says}, {arm: {geometry}, place: [x, y]}) {
+  const KO = distance2(x, y),
+    distance = inWords(KO);
+  if (KO <= geometry.inner) return fill(says.tooNear, {distance, inner: inWords(geometry.inner)});
+  if (KO > geometry.reach) return fill(says.tooFar, {distance, reach: inWords(geometry.reach)});
+  return says.pastGamma;
 }
 
 /**
@@ -207,38 +287,6 @@ function armOf({arm, before, place}, costs) {
 }
 
 /**
- * @param {LeversExplorer} data
- * @param {State} state
- * @param {Point} home
- * @returns {Handle}
- */
-function pointHandle({words, unit}, state, home) {
-  const fine = 5e-3;
-  return {
-    id: "free",
-    name: words.takeFree,
-    look: "rk-free",
-    at: () => state.place,
-    value() {
-      const [x, y] = state.place.map(each => number(each / unit.size, 1));
-      return `${x}, ${y} ${unit.name}`;
-    },
-    grab(camera) {
-      const to = inScreen(camera, state.place);
-      return (dx, dy) => {
-        state.place = [...to(dx, dy).slice(0, 2), 0];
-      };
-    },
-    step(right, up, big) {
-      state.place = plus(state.place, [right, up, 0], fine * (big ? 10 : 1));
-    },
-    home() {
-      state.place = [...home];
-    },
-  };
-}
-
-/**
  * The Python code that finds the same posture.
  * @param {LeversExplorer} data
  * @param {State} state
@@ -249,92 +297,3 @@ const pythonOf = ({code, unit}, {place, alpha, arm}) =>
     alpha: plain(degrees(alpha), 3),
     levers: lengths(arm.geometry.levers, {size: 1}).join(", "),
   });
-
-/**
- * Draws the sum S of the absolute angle changes against the free angle. The axis of the angle keeps
- * the limits of its joint, so that the reader sees the range grow and shrink.
- * @param {HTMLCanvasElement} canvas
- * @param {Record<string, string>} says
- * @param {?Costs} costs
- * @returns {?{alphaAt: (px: number) => number}}  the angle at a horizontal position
- */
-function drawCosts(canvas, says, costs) {
-  const ready = prepared(canvas);
-  if (!ready) return null;
-  const [g, w, h] = ready,
-    left = 44,
-    right = w - 42,
-    top = 26,
-    bottom = h - 34;
-  write(g, says.costTitle, 6, 14, colors.ink, 12, "left", "600");
-  if (!costs) return null;
-  const {low, high, alpha, best, at, limits} = costs,
-    span = limits[1] - limits[0];
-  const alphas = Array.from({length: 121}, (_, i) => low + ((high - low) * i) / 120),
-    S = alphas.map(at);
-  const most = Math.max(...S, 1e-9),
-    least = Math.min(...S),
-    room = Math.max(most - least, 1e-9);
-  /** @type {(value: number) => number} */
-  const x = value => left + ((right - left) * (value - limits[0])) / span;
-  /** @type {(value: number) => number} */
-  const y = value => bottom - ((bottom - top) * (value - least + 0.05 * room)) / (1.1 * room);
-  /** @type {(py: number) => void} */
-  const level = py =>
-    stroke(
-      g,
-      [
-        [left, py],
-        [right, py],
-      ],
-      colors.grid,
-      1,
-    );
-  for (const value of [least, most]) {
-    level(y(value));
-    write(
-      g,
-      `${number(degrees(value), 0)}\u00B0`,
-      left - 5,
-      y(value) + 4,
-      colors.soft,
-      11,
-      "right",
-    );
-  }
-  stroke(
-    g,
-    alphas.map(/** @returns {Pixel} */ (value, i) => [x(value), y(S[i])]),
-    colors.accent,
-    2,
-  );
-  level(bottom);
-  upright(g, x(best), top, bottom, colors.near, 1.4, [4, 3]);
-  upright(g, x(alpha), top, bottom, colors.ink, 1.4);
-  spot(g, [x(alpha), y(at(alpha))], 4.5, colors.accent);
-  drawAngles(g, costs, x, bottom + 14);
-  write(g, says.costAxis, (left + right) / 2, bottom + 28, colors.soft, 11, "center");
-  return {
-    alphaAt: px => limits[0] + (span * (px - left)) / (right - left),
-  };
-}
-
-/**
- * Writes both ends of the range of the free angle below the axis, and each limit that has room.
- * @param {CanvasRenderingContext2D} g
- * @param {Costs} costs
- * @param {(value: number) => number} x
- * @param {number} y
- */
-function drawAngles(g, {low, high, limits}, x, y) {
-  /** @type {(value: number, decimals: number, color: string, gap: number) => void} */
-  const name = (value, decimals, color, gap) => {
-    const align = gap ? (gap < 0 ? "right" : "left") : "center";
-    write(g, `${number(degrees(value), decimals)}\u00B0`, x(value) + gap, y, color, 11, align);
-  };
-  name(low, 1, colors.ink, -3);
-  name(high, 1, colors.ink, 3);
-  const room = 60; // px for a range's end and half of a limit
-  if (x(low) > x(limits[0]) + room) name(limits[0], 0, colors.soft, 0);
-  if (x(high) < x(limits[1]) - room) name(limits[1], 0, colors.soft, 0);
-}

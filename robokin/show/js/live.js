@@ -1,5 +1,5 @@
-// Questions to the kernel. A view is asleep until the model of a kernel finds it (waking.js). They
-// communicate through events on the view's element in the page.
+// Sends questions to the kernel. A view is inactive until the model of a kernel finds it
+// (waking.js). They communicate through events on the view's element in the page.
 
 import {element} from "./elements.js";
 
@@ -8,13 +8,13 @@ import {element} from "./elements.js";
  * @typedef {{array: number | string, type: keyof typeof TYPES, shape: number[]}} StoredArray
  */
 /**
- * An array that has been read.
+ * An array that has been decoded.
  * @typedef {{values: InstanceType<typeof TYPES[keyof typeof TYPES]>, shape: number[]}} Values
  */
 /** @typedef {(n: number, question: unknown) => void} Port  sends a question to the kernel */
 /** @typedef {{n: number, answer: {error?: string}, buffers: DataView<ArrayBuffer>[]}} Arrived */
 
-const PATIENCE = 4000; // ms: after this time without an answer the view says so
+const PATIENCE = 4000; // ms: if no answer arrives within this time, the view says so
 // Up to two questions may be under way: the second carries the acknowledgement without which the
 // first answer is delayed by 40 ms (Nagle's algorithm with delayed acknowledgements).
 const UNDER_WAY = 2;
@@ -28,9 +28,9 @@ const SLOW = 100;
  *                the end, by the next kernel if this one ends; older ones may be skipped while the
  *                kernel is busy.
  *
- * While the view is asleep, its controls and handles are disabled, and a sentence says why.
- * `root.dataset` contains `awake`, and the numbers of the last question `asked` and the last one
- * `answered`.
+ * While the view is inactive, its controls and handles are disabled, and a sentence says why.
+ * `root.dataset` contains `awake` while it is active, and the numbers of the last question `asked`
+ * and of the last question `answered`.
  *
  * @template Question
  * @template Answer
@@ -62,7 +62,7 @@ export function kernelOf(root, id, words, hear) {
 }
 
 /**
- * The questions of a view: the waiting one, those under way, and the port to the kernel.
+ * The questions of a view: the next one, those that have been sent, and the port to the kernel.
  * @template Question
  */
 class Questions {
@@ -86,7 +86,7 @@ class Questions {
     this.slow = false;
   }
 
-  /** Shows whether the view is awake. @type {(awake: boolean, sentence?: string) => void} */
+  /** Shows whether the view is active. @type {(awake: boolean, sentence?: string) => void} */
   stir(awake, sentence = "") {
     this.root.toggleAttribute("data-awake", awake);
     const parts = /** @type {NodeListOf<HTMLElement>} */ (
@@ -97,7 +97,7 @@ class Questions {
     this.says.hidden = !sentence;
   }
 
-  /** Takes back the unanswered questions, of which the newest is asked again. */
+  /** Forgets the unanswered questions, but asks the newest of them again later. */
   takeBack() {
     clearTimeout(this.timer);
     this.wanted ??= [...this.underWay.values()].at(-1)?.question ?? null;
@@ -142,7 +142,7 @@ class Questions {
       this.timer = setTimeout(() => this.stir(false, this.words.waiting), PATIENCE);
   }
 
-  /** The question of answer n, if it is still waiting. @param {number} n */
+  /** Returns the question of answer n if it has not been answered yet. @param {number} n */
   answered(n) {
     const about = this.underWay.get(n);
     if (!this.port || !about) return null;
@@ -155,11 +155,11 @@ class Questions {
 const TYPES = {uint8: Uint8Array, uint16: Uint16Array, int16: Int16Array, float32: Float32Array};
 
 /**
- * An answer with its arrays: live.py sends {"array": its number or its data in base64, "type",
- * "shape"} in their place.
+ * Returns an answer with its arrays. In place of each array, live.py sends {"array": its index or
+ * its data in base64, "type", "shape"}.
  * @param {unknown} answer
  * @param {DataView<ArrayBuffer>[]} [buffers]
- * @returns {unknown}  the answer with Values in place of each array
+ * @returns {unknown}  the answer, with Values in place of each array
  */
 export function joinArrays(answer, buffers = []) {
   if (Array.isArray(answer)) return answer.map(each => joinArrays(each, buffers));

@@ -1,18 +1,19 @@
-// Starts a view as soon as it comes near the window: unpacks its script, which the output stores
-// compressed, and runs it. All views of one kind share one script, so a page unpacks it only once.
+// Starts a view as soon as it is close to the visible part of the page: decompresses the script
+// that the output contains, and runs it. All views of one kind share one script, so a page
+// decompresses it only once.
 
 /** @typedef {HTMLScriptElement & {exported?: unknown}} Exporting */
 
 /** @type {Map<string, Promise<unknown>>} */
 const scripts = (Object(globalThis).robokinScripts ??= new Map());
-/** @type {{last: Promise<unknown>}} The start of the latest view, and the picture after it. */
+/** @type {{last: Promise<unknown>}} Resolves after the latest view has started. */
 const turn = (Object(globalThis).robokinTurn ??= {last: Promise.resolve()});
 
 /**
  * @template T
  * @param {string} id  the id of the view
  * @param {string} key  the key of its script
- * @param {string} deflated  the script, compressed by zlib, in base64
+ * @param {string} deflated  the script, compressed with zlib, in base64
  * @param {(module: T) => void} show
  */
 export function start(id, key, deflated, show) {
@@ -28,8 +29,8 @@ export function start(id, key, deflated, show) {
 }
 
 /**
- * Starts one view at a time, with a picture of the page in between, so that a slow phone can scroll
- * and take a touch before the next view starts.
+ * Starts one view at a time, and lets the browser redraw the page in between, so that a slow phone
+ * can scroll and respond to a touch before the next view starts.
  * @param {() => void} act
  */
 function inTurn(act) {
@@ -41,8 +42,8 @@ function inTurn(act) {
 }
 
 /**
- * Waits until one of the elements for a view is at most half a window away. A long page would be
- * busy for seconds if all its views started together.
+ * Waits until one of the placeholders of a view is at most half the height of the window away. A
+ * long page would be busy for seconds if all its views started together.
  * @param {string} id
  * @returns {Promise<void>}
  */
@@ -72,7 +73,7 @@ async function inflated(deflated) {
 
 /**
  * Runs a script and returns its result. The script has to be an element of the page, because the
- * policy of a report allows no other code.
+ * security policy of a report allows no other code.
  * @param {string} text
  * @param {string} nonce
  */

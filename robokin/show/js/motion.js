@@ -90,7 +90,7 @@ export function blend(start, via, goal, fraction, s, corner = "parabola") {
 export const lin_lin = (start, via, goal, s) => blend(start, via, goal, 0, s);
 
 /**
- * The law s(t) over `duration` seconds from `progress`, which maps t / duration to s.
+ * Makes the law s(t) over `duration` seconds from `progress`, which maps t / duration to s.
  * @param {number} duration
  * @param {(x: number) => number} progress
  * @returns {(t: number) => number}
@@ -156,26 +156,29 @@ export function differentiate(values, t, order = 1) {
 
 /**
  * The greatest value of `quantity` between low and high, accurate enough to be shown with this many
- * decimals, as in Python's `refined_maximum`. `quantity` is NaN where it has no value.
+ * decimals, and where it is, as in Python's `refined_maximum`. `quantity` is NaN where it has no
+ * value.
  * @param {(x: number) => number} quantity
  * @param {number} low
  * @param {number} high
  * @param {number} decimals
- * @returns {number}  NaN if there is no value, or the search does not converge
+ * @returns {{value: number, at: number}}  NaN if there is no value, or the search does not converge
  */
 export function refinedMaximum(quantity, low, high, decimals) {
   const fine = 0.5 * 10 ** -(decimals + 2);
-  let best = -Infinity;
+  const nothing = {value: NaN, at: NaN};
+  let best = {value: -Infinity, at: NaN};
   /** @type {number[][]} */
   const stretches = [[Infinity, low, high]];
   for (let looked = 0; looked < MOST; looked++) {
     const [hope, start, stop] = stretches.pop() || [-Infinity, 0, 0];
-    if (hope === -Infinity || hope < best + fine) return best === -Infinity ? NaN : best;
+    if (hope === -Infinity || hope < best.value + fine)
+      return best.value === -Infinity ? nothing : best;
     const at = Array.from({length: STEPS + 1}, (_, k) => start + (stop - start) * (k / STEPS));
     const values = at.map(quantity);
     values.forEach((value, i) => {
       if (Number.isNaN(value)) return;
-      best = Math.max(best, value);
+      if (value > best.value) best = {value, at: at[i]};
       const [from, to] = [Math.max(i - 1, 0), Math.min(i + 1, STEPS)];
       const near = values.slice(from, to + 1).filter(x => !Number.isNaN(x));
       if (value === Math.max(...near))
@@ -183,5 +186,5 @@ export function refinedMaximum(quantity, low, high, decimals) {
     });
     stretches.sort(([a, from], [b, to]) => a - b || from - to);
   }
-  return NaN;
+  return nothing;
 }

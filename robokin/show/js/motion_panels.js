@@ -3,25 +3,32 @@
 import {scale} from "./ticks.js";
 
 /** @import {Motion} from "./blended.js" */
-/** @import {MotionData} from "./motion_explorer.js" */
+/** @import {MotionPage} from "./page.js" */
 /** @import {Line, Panel} from "./panel.js" */
 
 /**
- * A panel of curves: joint values (order 0), speeds or accelerations.
- * @param {MotionData} data
+ * A panel of curves: joint values (order 0), speeds or accelerations. Its scale has room for the
+ * opening motion.
+ * @param {MotionPage} data
  * @param {Motion} motion
  * @param {number[][]} rows
  * @param {number} order
  * @param {number} now  a sample
+ * @param {?{rows: number[][], gaps: Set<number>}} [opening]  the opening motion, if it is shown
  * @returns {Panel}
  */
-export function panelOf({arm, panels, units}, {gaps, jumps}, rows, order, now) {
-  const curves = units.map((u, j) => Float64Array.from(rows, row => row[j] / u.size));
+export function panelOf({arm, panels, units}, {gaps, jumps}, rows, order, now, opening = null) {
+  /** @type {(rows: number[][]) => Float64Array[]} */
+  const shown = rows => units.map((u, j) => Float64Array.from(rows, row => row[j] / u.size));
+  const curves = shown(rows),
+    before = opening && shown(opening.rows);
   const kinds = [false, true].filter(shifts => arm.prismatic.includes(shifts));
   const axes = kinds
     .map(shifts => units.flatMap((_, j) => (arm.prismatic[j] === shifts ? [j] : [])))
     .map(joints => {
-      const [low, high] = ends(joints.map(j => curves[j]));
+      const [low, high] = ends(
+        joints.flatMap(j => (before ? [curves[j], before[j]] : [curves[j]])),
+      );
       return {
         unit: units[joints[0]].name + ["", "/s", "/s\u00B2"][order],
         scale: scale(low, high),
@@ -32,7 +39,7 @@ export function panelOf({arm, panels, units}, {gaps, jumps}, rows, order, now) {
     const [low, high] = arm.limits[j].map(x => x / units[j].size);
     return {
       values,
-      opening: null,
+      opening: opening && before && {values: before[j], gaps: opening.gaps},
       joint: j,
       arm: 0,
       axis: kinds.indexOf(arm.prismatic[j]),

@@ -17,8 +17,8 @@ import {recording, series, thingsAt} from "./recordings.js";
  */
 
 /**
- * choose(value, choice): everything that changes with slider and switch; things(motion, sample,
- * share): the things that exist at that moment.
+ * `choose(value, choice)` returns everything that changes with slider and switch. `things(motion,
+ * sample, share)` returns the things that exist at that moment.
  * @param {Page} data
  */
 export function motionsOf(data) {
@@ -123,7 +123,7 @@ function jointPanel(data, order, motion, opening, recordings) {
 }
 
 /**
- * The limits, except those that an earlier arm also has.
+ * The limits, without those that an earlier arm also has.
  * @param {Line[]} lines
  * @param {Panel["near"]} limits
  * @returns {Panel["near"]}
@@ -188,7 +188,7 @@ function quantityPanel(data, k, motion, opening, of) {
 }
 
 /**
- * The joints of an arm that are currently past a position limit.
+ * The joints of an arm that currently exceed a position limit.
  * @param {Panel} panel  of joint values
  * @param {number} arm
  */

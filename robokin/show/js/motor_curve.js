@@ -1,4 +1,4 @@
-// Steps over time: those sent to a motor, and those that its rotor made.
+// Draws steps over time: those sent to a motor, and those that its rotor made.
 
 import {fill} from "./blanks.js";
 import {lastOf} from "./bench.js";

@@ -21,7 +21,7 @@ import {degrees, radians} from "./turns.js";
 /** @typedef {ReturnType<typeof motorStage>} Stage */
 
 /**
- * Builds the view in every element that waits for this id.
+ * Builds the view in every placeholder with this id.
  * @param {string} id
  * @param {PageMotors} data
  */
@@ -83,7 +83,7 @@ function motorStage(root, data, bench) {
       bench.hold(false);
       stage.changed();
     };
-  // the keyboard also moves the rotor
+  // so that the rotor is also released after being moved with the keyboard
   layer.addEventListener("keyup", letGo);
   layer.addEventListener("focusout", letGo);
   return stage;
@@ -126,7 +126,7 @@ function rotorHandle(bench, says) {
 }
 
 /**
- * The clock of a run. The picture shows the run as soon as the clock plays or is set.
+ * The clock of a run. The picture shows the run as soon as the clock starts or is set.
  * @param {Stage} stage
  * @param {Bench} bench
  * @param {PageMotors["words"]} says
@@ -232,7 +232,7 @@ function menusOf(bench, {words: says, kinds, drives}, changed) {
     k => {
       const {windings} = bench.page();
       state.kind = k;
-      // the same number of windings as before, if possible
+      // keep the number of windings if possible
       state.motor = Math.max(
         0,
         kinds[k].motors.findIndex(m => m.windings === windings),
@@ -272,7 +272,7 @@ function menusOf(bench, {words: says, kinds, drives}, changed) {
 }
 
 /**
- * The phase table, which is rebuilt for another motor. Choosing a row switches its windings on.
+ * The phase table, which is rebuilt for another motor. Choosing a row switches on its windings.
  * @param {Stage} stage
  * @param {Bench} bench
  * @param {PageMotors["words"]} says

@@ -13,7 +13,7 @@ import {degrees} from "./turns.js";
 /** @import {Motor} from "./rotor.js" */
 /** @import {Picture} from "./stage.js" */
 
-/** @typedef {(angle: number, r: number) => Pixel} Round  from polar coordinates to pixels */
+/** @typedef {(angle: number, r: number) => Pixel} Round  converts polar coordinates to pixels */
 /** @typedef {{g: Context, at: Round}} Pen */
 
 /**

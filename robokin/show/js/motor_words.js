@@ -1,4 +1,4 @@
-// The motor explorer's sentences and Python code for a motor and a run.
+// The sentences of the motor explorer, and the Python code for a motor and a run.
 
 import {fill} from "./blanks.js";
 import {number} from "./canvas.js";
@@ -26,7 +26,7 @@ export function factTable(bench, {words: says, pulses, rules}) {
   const torque = x => fill(says.torques, {value: number(1000 * x, 1)});
   /** @type {?Bench["motor"]} */
   let told = null;
-  /** @type {Map<string, number>} results that take a long time to compute */
+  /** @type {Map<string, number>} stored, since they take a long time to compute */
   const starts = new Map();
   return {
     node: rows.node,

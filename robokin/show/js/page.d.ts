@@ -1,17 +1,26 @@
 // Written by `python tests/javascript.py types` from the TypedDicts of page.py, twin.py,
-// numbers.py, motors.py and things/, which say what everything is. Change those.
+// numbers.py, motors.py and things/, which describe every key. Edit those files instead.
 
-/** T with these of its optional keys there. */
+/** T in which these optional keys are present. */
 export type With<T, K extends keyof T> = T & Required<Pick<T, K>>;
 
-export type PageExplorer = JointPage | LeversPage | TargetPage | MotionPage | PlanPage | TourPage;
+export type PageExplorer =
+  | JointPage
+  | LeversPage
+  | ElbowPage
+  | TargetPage
+  | MotionPage
+  | RotationPage
+  | SingularityPage
+  | PlanPage
+  | TourPage;
 
 export type Scale = [number, number, number, number];
 
 export type Inverse =
   ElbowInverse | WristInverse | ScaraInverse | TwoLinkInverse | ThreeLeverInverse | NoInverse;
 
-export type PageThing = PageFaces | PageMark | PageTarget;
+export type PageThing = PageFaces | PageZone | PageMark | PageTarget;
 
 export interface Packed {
   steps: (number | number[])[];
@@ -21,6 +30,18 @@ export interface Packed {
 export interface PageFaces {
   kind: "faces";
   corners: number[][][];
+}
+
+export interface ZoneSide {
+  joint: number | null;
+  dash: number[];
+  points: number[][];
+}
+
+export interface PageZone {
+  kind: "zone";
+  elbows: ZoneSide[][];
+  labels: [string, number[]][];
 }
 
 export interface PageReading {
@@ -303,6 +324,13 @@ export interface JointPage {
   wrist: number[] | null;
 }
 
+export interface PageCosts {
+  title: string;
+  axis: string;
+  terms: string[];
+  dashes: number[][];
+}
+
 export interface LeversPage {
   title: string;
   summary: string;
@@ -317,7 +345,26 @@ export interface LeversPage {
   units: PageUnit[];
   kind: "levers";
   q: number[];
-  target: PagePose;
+  targets: PagePose[];
+  curve: PageCosts;
+}
+
+export interface ElbowPage {
+  title: string;
+  summary: string;
+  alt: string;
+  meant: string;
+  unit: PageUnit;
+  scene: PageScene;
+  controls: Control[];
+  words: Record<string, string>;
+  code: string;
+  arm: ArmData;
+  units: PageUnit[];
+  kind: "elbow";
+  point: number[];
+  heads: string[];
+  elbows: string[];
 }
 
 export interface TargetPage {
@@ -339,6 +386,7 @@ export interface TargetPage {
   branches: string[];
   heads: string[];
   turning: number[];
+  watched: number[];
   task: BranchTask | null;
 }
 
@@ -366,6 +414,47 @@ export interface MotionPage {
   panels: string[];
   samples: number;
   jumps: JumpRules;
+  close_up: boolean;
+}
+
+export interface SingularityPage {
+  title: string;
+  summary: string;
+  alt: string;
+  meant: string;
+  unit: PageUnit;
+  scene: PageScene;
+  controls: Control[];
+  words: Record<string, string>;
+  code: string;
+  arm: ArmData;
+  units: PageUnit[];
+  kind: "singularity";
+  pose: PagePose;
+  along: number[];
+  beside: number[];
+  row: number;
+  speed: number;
+}
+
+export interface RotationPage {
+  title: string;
+  summary: string;
+  alt: string;
+  meant: string;
+  unit: PageUnit;
+  scene: PageScene;
+  controls: Control[];
+  words: Record<string, string>;
+  code: string;
+  kind: "rotation";
+  axis: number[];
+  across: number[];
+  length: number;
+  angles: number[];
+  rows: string[];
+  heads: string[];
+  decimals: number;
 }
 
 export interface LivePage {

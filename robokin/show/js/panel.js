@@ -24,7 +24,7 @@ import {lineColor, panelWords, shade} from "./panel_words.js";
  * @property {number} joint  from 0; -1 for a quantity that belongs to no joint
  * @property {number} arm  from 0
  * @property {number} axis  the index of its axis in the panel
- * @property {boolean} faint  whether the line is not to be watched
+ * @property {boolean} faint  whether the line is faint, because it is not watched
  * @property {Set<number>} gaps  samples after which the line breaks
  * @property {?[low: number, high: number]} limits
  * @property {number} now  its current value
@@ -52,9 +52,9 @@ import {lineColor, panelWords, shade} from "./panel_words.js";
  * }} Ground
  */
 
-export const FAINT = 0.28; // opacity of a curve that is not to be watched
-const SMALL = 60; // px: a panel of less height shows only the ends of its scale, and no text
-const PAST = 0.002; // an excess over a limit by no more than this is rounding
+export const FAINT = 0.28; // opacity of a curve that is not watched
+const SMALL = 60; // px: a lower panel shows only the ends of its scale, and no text
+const PAST = 0.002; // an excess over a limit up to this value is due to rounding
 
 /** The line width for an arm. @type {(arm: number) => number} */
 export const strength = arm => [2.6, 1.4, 0.7][Math.min(arm, 2)];
@@ -62,7 +62,7 @@ export const strength = arm => [2.6, 1.4, 0.7][Math.min(arm, 2)];
 /** @type {(patterns: number[][], j: number, width: number) => number[]} */
 export const dashes = (patterns, j, width) => patterns[j % patterns.length].map(x => x * width);
 
-/** Whether a value is past a limit of its line. @type {(line: Line, v: number) => boolean} */
+/** Whether a value exceeds a limit of its line. @type {(line: Line, v: number) => boolean} */
 export const isPast = ({limits}, value) =>
   !!limits && (value < limits[0] - PAST || value > limits[1] + PAST);
 

@@ -1,4 +1,4 @@
-// Text on a panel of curves for its marks and limits, placed where it covers the curves least.
+// Labels for the marks and limits of a panel of curves, placed where they hide the curves least.
 
 import {colors, font, hit, jointColor, number} from "./canvas.js";
 
@@ -12,7 +12,7 @@ export const lineColor = ({joint}) => (joint < 0 ? colors.ink : jointColor(joint
 export const shade = color => `color-mix(in srgb, ${color} 60%, ${colors.ink})`;
 
 /**
- * The text of a panel, placed once for each size and theme, not again at every redraw.
+ * The text of a panel. It is placed once for each size and theme, and not again at every redraw.
  * @param {Context} g
  * @param {Panel} panel
  * @param {Place[]} ys  the height of a value, for each line
@@ -61,7 +61,7 @@ function noted(g, marks, x, [left, right, top]) {
 
 /**
  * The text of the limits: next to their lines, clear of other text and almost clear of the curves.
- * At most three are shown; a limit for which there is no such place has only its band.
+ * At most three limits have text. A limit for which there is no such place has only its band.
  * @param {Context} g
  * @param {Panel} panel
  * @param {Place[]} ys  the height of a value, for each line

@@ -4,7 +4,7 @@ import {refinedMaximum} from "./motion.js";
 
 const NODES = [-2, -1, 0, 1, 2],
   FINE = 2e-4, // node spacing, as a fraction of the whole motion
-  SHARE = 200; // the spacing is also at most 1 / SHARE of a stretch
+  SHARE = 200; // the spacing is also at most 1 / SHARE of an interval
 
 /** The number of decimals that rounding errors do not affect. @type {(x: number) => number} */
 export const decimalsOf = x => (Math.abs(x) < 1e4 ? 1 : 0);
@@ -26,10 +26,10 @@ export function timeOf(law, duration, s) {
 }
 
 /**
- * The greatest absolute speed and acceleration of each joint in its unit, accurate to two more
- * digits than `decimalsOf` returns.
+ * The greatest absolute speed and acceleration of each joint in its unit, with two more accurate
+ * decimals than `decimalsOf` returns.
  * @param {(t: number) => number[]} posture  NaN if there is none, or it is uncertain
- * @param {number[]} ends  the ends of the stretches, increasing: an acceleration or a speed may
+ * @param {number[]} ends  the ends of the intervals, increasing: an acceleration or a speed may
  *   jump there
  * @param {number[]} sizes  the sizes of the units
  * @param {number[][]} near  speeds and accelerations of about the same size
@@ -54,12 +54,12 @@ export function peaks(posture, ends, sizes, near) {
       return found;
     };
     for (const [order, values] of near.entries())
-      for (const [j, value] of values.entries()) {
-        const top = refinedMaximum(
+      for (const [j, about] of values.entries()) {
+        const {value: top} = refinedMaximum(
           t => Math.abs(at(t)[order][j]) / sizes[j],
           low,
           high,
-          decimalsOf(value),
+          decimalsOf(about),
         );
         if (!sure || Number.isNaN(top)) return null;
         best[order][j] = Math.max(best[order][j], top);

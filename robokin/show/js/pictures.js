@@ -29,7 +29,7 @@ export function pictures(root, canvases, draw) {
   const turned = () => {
     look();
     if (root.isConnected) draw(performance.now());
-  }; // draws at once, since printing does not wait
+  }; // draws immediately, since printing does not wait
   function look() {
     if (root.isConnected) {
       readColors(canvases[0]); // inside .rk, which defines the colours

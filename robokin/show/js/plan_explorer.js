@@ -25,7 +25,8 @@ import {point} from "./mark.js";
 
 /** @typedef {With<PlanPage, "question" | "first"> & {arm: ThreeLeverArm}} PlanExplorer */
 /**
- * A question. `way`: the index in `branches`; `sides`: whether to show the quadrilaterals, too.
+ * A question. `way` is the index in `branches`; `sides` says whether to show the quadrilaterals,
+ * too.
  * @typedef {object} Question
  * @property {number[]} posture
  * @property {number[]} target  x, y
@@ -64,7 +65,7 @@ const STEPS = 9,
   MOMENTS = 16; // steps of search and motion per second
 
 /**
- * Builds the view in every element that waits for this id.
+ * Builds the view in every placeholder with this id.
  * @param {string} id
  * @param {PlanExplorer} data
  */
@@ -205,7 +206,7 @@ function inputsOf(stage, {words: says, branches, controls: [spec], code}, state)
 
 /**
  * The clocks of search and motion, below the cube. They need no kernel, so they work while the rest
- * is asleep.
+ * is inactive.
  * @param {Stage} stage
  * @param {PlanExplorer} data
  * @param {Now} now
@@ -296,7 +297,7 @@ function marks({arm, words: says, unit}, state) {
         state[key] = p;
       },
     );
-  // within the arm's reach, the start posture follows the pointer with the least movement
+  // within the arm's reach, the start posture follows the pointer with the least movement of joints
   /** @param {Point} place */
   const follow = place => {
     const q = least(arm, {place}, state.q);

@@ -1,4 +1,4 @@
-// The player: recorded motions of arms in space next to their curves. page.py has its data.
+// The player: recorded motions of arms in space next to their curves. page.py defines its data.
 
 import {number, replaceStill} from "./canvas.js";
 import {sceneOf, sceneView} from "./scene.js";
@@ -18,7 +18,7 @@ import {range} from "./sliders.js";
 /** @typedef {ReturnType<typeof furniture>} Parts */
 
 /**
- * Builds the view in every element that waits for this id.
+ * Builds the view in every placeholder with this id.
  * @param {string} id
  * @param {Page} data
  */
@@ -115,14 +115,16 @@ function furniture(data) {
   };
   parts.watch.value = String(data.watch.panel);
   parts.row.append(element("label", {}, "watch", parts.watch), folding("numbers", table));
-  // the controls are above the pictures, so that a small screen shows the slider and the arm
-  // together
+  // the controls are above the pictures, so that the slider and the arm are both visible on a small
+  // screen
   const rows = [parts.row, parts.says];
   if (slider || menu) rows.unshift(element("div", {class: "rk-row"}));
   if (slider && parts.slider)
     rows[0].append(element("label", {class: "rk-long"}, slider.label, parts.slider, parts.value));
   if (menu && parts.menu) rows[0].append(element("label", {}, menu.label, parts.menu));
-  const size = data.scene.bases ? " rk-wide" : arms.length > 1 ? " rk-several" : "";
+  const {bases} = data.scene, // arms that stand at one place need no more width than one arm
+    apart = !!bases && new Set(bases.map(String)).size > 1,
+    size = apart ? " rk-wide" : arms.length > 1 && !bases ? " rk-several" : "";
   const frame = element(
     "div",
     {class: "rk rk-player", role: "group", "aria-label": data.title},
@@ -227,7 +229,7 @@ function momentAt(times, time) {
 }
 
 /**
- * The arm for the scene; if there is no posture, the last one before it, faded.
+ * The arm for the scene. If there is no posture, the last posture before it is shown faded.
  * @param {Track} arm
  * @param {Moment} moment
  */

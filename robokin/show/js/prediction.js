@@ -10,7 +10,7 @@ const COPY = {copy: "Copy my guesses for the report", copied: "Copied"};
 const LETTERS = "abcdef";
 
 /**
- * Shows the question in every element that waits for this id.
+ * Shows the question in every placeholder with this id.
  * @param {string} id
  * @param {PageQuestion} data
  */
@@ -26,7 +26,7 @@ class Prediction {
     this.root = root;
     this.data = data;
     this.memory = memoryOf(root);
-    // A question inside the view of another one has its own.
+    // A question inside the view of another question has a view of its own.
     this.view = root.querySelector(":scope > .robokin-view, :scope > details > .robokin-view");
     this.unguessed = root.querySelector(":scope > .robokin-unguessed");
     this.kept = element("p", {role: "status"});
@@ -51,7 +51,8 @@ class Prediction {
         ...(this.unguessed ? [this.unguessed] : []),
       ),
     );
-    // Tab reaches the second control before the script starts, and the move takes the focus away.
+    // If the second control has the focus because the reader pressed Tab before the script started,
+    // it loses the focus when it is moved.
     if (focused) this.unguessed?.querySelector("summary")?.focus();
     this.listen();
     if (data.choice === null) this.recall();
@@ -143,17 +144,17 @@ class Prediction {
         const first = memory.read().find(([name]) => name === data.name)?.[1] ?? this.chosen();
         const same = judged(data, first) === judged(data, this.chosen());
         const counts = same ? "" : ` Your first guess, ${first.split(":")[0]}, counts.`;
-        kept.textContent = `${before}Kept for your report.${counts}`;
+        kept.textContent = `${before}Saved for your report.${counts}`;
         this.copy.remove();
       },
     };
-    kept.textContent = `${before}Python keeps it for your report as soon as it answers.`;
+    kept.textContent = `${before}Python will save it for your report as soon as it answers.`;
     const event = new CustomEvent("robokin-guess", {cancelable: true, detail: offered});
     if (!document.dispatchEvent(event)) return;
     this.alone(
       before,
       memory.panel
-        ? ". Run > Run All Cells, and it is kept for your report."
+        ? ". Run > Run All Cells saves it for your report."
         : ". For your report, copy your guesses into the lab's last cell.",
     );
   }
@@ -162,7 +163,7 @@ class Prediction {
   alone(before, why) {
     const {memory} = this,
       where = memory.lasts() ? "in this browser" : "on this page";
-    this.kept.textContent = `${before}Kept ${where} only${why}`;
+    this.kept.textContent = `${before}Saved ${where} only${why}`;
     const others = (memory.panel ?? document).querySelectorAll(".rk-copy");
     for (const each of others) each.remove(); // one copy button per page
     this.asking.append(this.copy);
@@ -173,7 +174,7 @@ class Prediction {
     const {data, memory} = this;
     this.open(choice);
     const {name} = data.unit === null ? data.options[judged(data, choice)] : {};
-    const made = name ? `${choice}: ${name}` : choice; // the name survives reordering
+    const made = name ? `${choice}: ${name}` : choice; // to find it after a reordering
     memory.write([...memory.read(), [data.name, made, new Date().toISOString()]]);
     this.offer();
     this.again.focus();
@@ -221,8 +222,8 @@ const valid = (data, choice) =>
     : choice !== "" && choice.length < 31 && Number.isFinite(+choice);
 
 /**
- * The index of the chosen answer; for a typed number an answer near it, preferably the correct one;
- * -1 if there is none.
+ * The index of the chosen answer. For a typed number, this is an answer near it, preferably the
+ * correct one. The result is -1 if there is none.
  * @param {PageQuestion} data
  * @param {string} choice
  */
@@ -259,19 +260,21 @@ function told(data, at, right) {
   ].filter(text => text);
 }
 
-/** Text between backticks is code. @type {(text: string) => (string | HTMLElement)[]} */
+/** Formats text between backticks as code. @type {(text: string) => (string | HTMLElement)[]} */
 const coded = text => text.split("`").map((part, k) => (k % 2 ? element("code", {}, part) : part));
 
 /**
- * The line of code that reports the first guess of each prediction in the same lab as `own`.
+ * The line of code that reports the first guess of each prediction. Those of the same lab as `own`
+ * have their number, others their whole id.
  * @param {Made[]} made
  * @param {string} own
  */
 function line(made, own) {
   const lab = own.slice(0, own.indexOf(".") + 1);
   const said = made
-    .filter(([name], k) => name.startsWith(lab) && made.findIndex(each => each[0] === name) === k)
-    .map(([name, choice]) => `${name.slice(lab.length)} ${choice.split(":")[0]}`);
+    .filter(([name], k) => made.findIndex(each => each[0] === name) === k)
+    .map(([name, choice]) => [name.startsWith(lab) ? name.slice(lab.length) : name, choice])
+    .map(([name, choice]) => `${name} ${choice.split(":")[0]}`);
   return `report(who, guesses="${said.join(", ")}")`;
 }
 
@@ -285,8 +288,8 @@ function storage() {
 }
 
 /**
- * The guesses that the page of `root` remembers: those of this notebook in JupyterLab, whose page
- * shows several; elsewhere those of this address.
+ * The guesses that the page of `root` remembers. In JupyterLab, whose page shows several notebooks,
+ * they are those of this notebook; elsewhere, they are those of this address.
  * @param {HTMLElement} root
  */
 function memoryOf(root) {
@@ -294,7 +297,10 @@ function memoryOf(root) {
   const {baseUrl = "", serverRoot = ""} = JSON.parse(
     document.getElementById("jupyter-config-data")?.textContent || "{}",
   );
-  /** The path of the notebook from its tab; null: there is no tab; "": it is not known yet. */
+  /**
+   * The path of the notebook, read from its tab: null if there is no tab, "" if it is not known
+   * yet.
+   */
   const path = () => {
     /** @type {?HTMLElement} */
     const tab = panel && document.querySelector(`.lm-TabBar-tab[data-id="${panel.id}"]`);

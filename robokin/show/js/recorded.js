@@ -46,8 +46,8 @@ function derivatives(q, t, gaps) {
 }
 
 /**
- * The jumps in the speeds between samples: changes far greater than the changes next to them. For
- * each jump: the samples, the time, and the joints.
+ * The jumps in the speeds between samples: changes far greater than the changes next to them. The
+ * result contains the samples, the time and the joints of each jump.
  * @param {number[][]} speeds  (samples - 1, n)
  * @param {number[]} t
  */
@@ -69,7 +69,7 @@ function speedJumps(speeds, t) {
     if (groups.length && i - groups[groups.length - 1][1] <= 2) groups[groups.length - 1][1] = i;
     else groups.push([i, i]);
   return groups.map(([low, high]) => {
-    // a corner between two samples shows in two changes, perhaps only faintly in one of them
+    // a corner between two samples causes two changes, one of which may be small
     const first = low - Number(stands(low - 1, 3, 0).includes(true)),
       last = high + Number(stands(high + 1, 3, 0).includes(true));
     const rows = change.slice(first, last + 1).map((_, k) => stands(first + k, 3, 0));
@@ -83,7 +83,7 @@ function speedJumps(speeds, t) {
 }
 
 /**
- * Which joints jump in position between each sample and the next, by the rule of `record`.
+ * Whether each joint jumps in position between each sample and the next, by the rule of `record`.
  * @param {number[][]} q  (samples, n), NaN where there is no posture
  * @param {number[]} t  seconds, increasing
  * @param {boolean[]} prismatic
@@ -114,8 +114,8 @@ export function leaps(q, t, prismatic, {least, few}) {
 }
 
 /**
- * How far a speed is outside the range of the `left` speeds before and the `right` speeds after it;
- * 0 if it may be a quick motion.
+ * The amount by which a speed is outside the range of the `left` speeds before it and the `right`
+ * speeds after it; 0 if it may belong to a quick motion.
  * @param {number[]} speeds
  * @param {number} i
  * @param {number} left

@@ -26,9 +26,9 @@ import {unpacked} from "./unpacked.js";
  */
 
 /**
- * One arm's motions. quantity(k, motion): joint values (k = 0), speeds, accelerations in the units
- * shown, for each joint an array over the samples; q(motion, sample, share): joint values in
- * radians and metres between two samples.
+ * The motions of one arm. `quantity(k, motion)` returns joint values (k = 0), speeds or
+ * accelerations in the units shown, for each joint as an array over the samples. `q(motion, sample,
+ * share)` returns joint values in radians and metres between two samples.
  * @param {Pick<PageArm, "chain" | "motion">} arm
  * @param {number} motions
  * @param {number} samples
@@ -63,8 +63,8 @@ export function series(packed, motions, samples, nothing) {
 }
 
 /**
- * For things that may move, a function (motion, sample, share) -> the things that exist at that
- * moment.
+ * Returns a function that maps (motion, sample, share) to the things that exist at that moment,
+ * some of which may move.
  * @param {PageThing[]} things
  * @param {number} nothing  the integer that means "no value"
  * @returns {AtMoment<Now<PageThing>[]>}

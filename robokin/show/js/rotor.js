@@ -8,7 +8,7 @@
  *
  * turn      the angle between neighbouring windings, rad
  * periods   periods of the pull in one revolution of the rotor
- * sharp     1 if a pull is proportional to the current, 2 if to its square
+ * sharp     1 if a pull is proportional to the current, 2 if it is proportional to its square
  * currents  the rows of the phase table
  * load      N m, always backwards
  *
@@ -130,7 +130,7 @@ const rowOf = ({currents}, sent) =>
   currents[((sent % currents.length) + currents.length) % currents.length];
 
 /**
- * Advances the rotor by some seconds with fourth-order Runge-Kutta, and changes `state`.
+ * Advances `state` by some seconds with the fourth-order Runge-Kutta method.
  * @param {Motor} motor
  * @param {State} state
  * @param {number} sent  the pulses, which determine the row that is on
@@ -179,7 +179,8 @@ export function advance(motor, state, sent, seconds, each = null, longest = rhyt
 }
 
 /**
- * A run from rest in row 0: with pulses of one sign at these times, until the rotor is at rest.
+ * Simulates a run from rest in row 0, with pulses of one sign at these times, until the rotor is at
+ * rest.
  * @param {Motor} motor
  * @param {number[]} times
  * @param {number} sign

@@ -1,4 +1,4 @@
-// Rows of joint values, and the distance that decides whether one exists.
+// Rows of joint values, and the distance that determines whether a row exists.
 
 /** Whether a row of joint values exists. @param {number[]} q @returns {boolean} */
 export const exists = q => !q.some(Number.isNaN);
@@ -23,7 +23,7 @@ export function distance2(x, y) {
 }
 
 /**
- * The option with the least travel from q, NaN if there is none.
+ * The option with the least travel from q; NaN if there is none.
  * @param {number[][]} options
  * @param {number[]} q
  * @returns {number[]}

@@ -20,22 +20,22 @@ import {compass} from "./triad.js";
  */
 /** @typedef {(g: Context, cam: Camera) => void} Draw */
 /**
- * @typedef {object} Shown  an arm as a picture shows it
+ * @typedef {object} Shown  an arm as it is drawn
  * @property {string} name
  * @property {PageLink[]} chain
  * @property {number[]} q  radians and metres
- * @property {(?Point)[]} [trace]  the tool's places, null at breaks; `tail`: those already passed
+ * @property {(?Point)[]} [trace]  the tool's places, null at breaks; `tail`: those passed so far
  * @property {(?Point)[]} [tail]
- * @property {boolean} [faded]  there is no solution here
- * @property {?{place: Point, text: string}} [near]  where the path passes "via"
- * @property {{q: number[], past: boolean}[]} [ghosts]  other postures, faint; broken lines where
- *   `past` a limit
- * @property {boolean} [framed]  show the frame of every link
- * @property {boolean} [glass]  draw it translucent
- * @property {number[]} [past]  the joints that are past a limit
+ * @property {boolean} [faded]  whether there is no solution here
+ * @property {?{place: Point, text: string}} [near]  where the path is nearest to "via"
+ * @property {{q: number[], past: boolean}[]} [ghosts]  other postures, faint; dashed if they
+ *   exceed a limit (`past`)
+ * @property {boolean} [framed]  whether to show the frame of every link
+ * @property {boolean} [glass]  whether to draw it translucent
+ * @property {number[]} [past]  the joints that exceed a limit
  * @property {string} [row]  the row of `ik` to which the posture belongs
  * @property {Draw} [under]  draws anything else below the arm
- * @property {Draw} [over]  the same above it
+ * @property {Draw} [over]  draws anything else above it
  * @property {(cam: Camera) => Box[]} [handles]  the boxes of its handles, which no label covers
  */
 /** @typedef {ReturnType<typeof surroundings>} Space  the fixed surroundings of a scene */
@@ -48,8 +48,8 @@ import {compass} from "./triad.js";
  * @typedef {{labels: Label[], taken: Pixel[]}} Labels
  */
 /**
- * How one kind of thing is drawn. T is its page data; `below` and `above` get all things of the
- * kind at once.
+ * How one kind of thing is drawn. T is its page data. `below` and `above` are called once, with all
+ * things of the kind.
  *
  * seen   points that a growing scene must show
  * below  draws the parts below the arms
@@ -171,11 +171,11 @@ const inside = ([x, y, w, h]) => [x + 20, y + 28, Math.max(1, w - 40), Math.max(
 
 /**
  * The fixed surroundings: the coordinate axes of the grid, a function that returns a point of the
- * floor, and the points that the camera must see, which are everything and its shadow. The rest of
- * the floor may leave the picture.
+ * floor, and the points that must be visible, including their shadows. The rest of the floor may be
+ * outside the picture.
  * @param {Scene} scene
  */
-function surroundings({flat, floor: [low], seen}) {
+export function surroundings({flat, floor: [low], seen}) {
   const normal = flat ?? 2,
     [a, b] = [0, 1, 2].filter(i => i !== normal);
   /** @type {(x: number, y: number) => Point} */
@@ -230,7 +230,7 @@ function drawCell(pen, arms, cell, named) {
 }
 
 /**
- * Draws arms in one picture and everything around them.
+ * Draws arms, and everything around them, in one picture.
  * @param {Pen} pen
  * @param {Shown[]} arms
  * @param {Box} cell
@@ -292,7 +292,7 @@ function drawSpace(pen, arms, [x, y, w, h], named) {
 }
 
 /**
- * Writes the row of `ik` in a corner, above what is written there; returns its box.
+ * Writes the row of `ik` in a corner, above what is already written there, and returns its box.
  * @param {Context} g
  * @param {string} row
  * @param {Pixel} corner  the lower left one
@@ -313,7 +313,7 @@ function writeRow(g, row, [x, y], written) {
  * @param {Pen} pen
  * @param {boolean} [over]
  */
-function drawFloor(
+export function drawFloor(
   {
     g,
     cam: {to},

@@ -1,11 +1,11 @@
-// Sliders. The mouse and the keyboard move a slider as the browser does. A browser also moves it to
-// a finger as soon as the finger touches it, even if the finger is about to scroll the page. So a
-// finger moves it here: by a sideways drag, or by a tap.
+// Sliders. The mouse and the keyboard move a slider in the usual way. For a finger, a browser would
+// move the slider as soon as the finger touches it, even if the finger is about to scroll the page.
+// So this module moves it instead, if the finger drags sideways or taps.
 
 import {control} from "./elements.js";
 
 const SLOP = 8; // px: a finger that has moved less than this has no direction yet
-const THUMB = 16; // px: the width of the part that slides
+const THUMB = 16; // px: the width of a slider's thumb
 const FINEST = 5; // steps: the most that a slider moves when the finger moves by one pixel
 
 /**

@@ -15,9 +15,9 @@ import {range} from "./sliders.js";
 /** @import {Shown} from "./scene.js" */
 
 /**
- * An arm of an explorer; the first one shows the axes of its joints and the semi-axes of the
- * ellipsoid of tool velocities, if it has them.
- * @typedef {Shown & {axes?: boolean, ellipsoid?: number[][]}} Explored
+ * An arm of an explorer; the first one shows the axes of all its joints or of those listed, and the
+ * semi-axes of the ellipsoid of tool velocities, if it has them.
+ * @typedef {Shown & {axes?: boolean | number[], ellipsoid?: number[][]}} Explored
  */
 /** @typedef {ReturnType<typeof stageOf>} Stage */
 /**
@@ -107,7 +107,7 @@ export function frameOf(root, data, picture) {
     run(answer, canvases = [], draw = () => {}) {
       drawn = pictures(root, [canvas, ...canvases], now => {
         if (stale) {
-          stale = false; // set first, since a running animation sets it again in `answer`
+          stale = false; // set first, since `answer` sets it again during an animation
           seen = answer(now);
         }
         draw();
@@ -193,6 +193,7 @@ function drawAids(g, camera, {chain, q, axes, ellipsoid}, size) {
     tip = origin(all[all.length - 1]);
   if (axes)
     joints.forEach((joint, j) => {
+      if (axes !== true && !axes.includes(j)) return;
       const way = turned(joint, chain[j].axis),
         ends = [-0.22, 0.22].map(k => camera.to(plus(origin(joint), way, k * size)));
       stroke(g, ends, jointColor(j), 1.6, [7, 3, 1.5, 3]);

@@ -1,5 +1,5 @@
 // The handles of a blended motion: start and goal move freely in the plane of the screen, the via
-// station also along the base's axes.
+// point also along the base's axes.
 
 import {fill} from "./blanks.js";
 import {number} from "./canvas.js";
@@ -9,17 +9,18 @@ import {AXES} from "./triad.js";
 
 /** @import {Point} from "./canvas.js" */
 /** @import {Handle} from "./handles.js" */
-/** @import {Asked, MotionData, Stations} from "./motion_explorer.js" */
+/** @import {MotionPage} from "./page.js" */
+/** @import {Asked, Stations} from "./motion_parts.js" */
 /** @import {Stage} from "./stage.js" */
 
-/** @typedef {{stage: Stage, state: Asked, data: MotionData, fine: number}} Held */
+/** @typedef {{stage: Stage, state: Asked, data: MotionPage, fine: number}} Held */
 
 export const STATIONS = /** @type {const} */ (["start", "via", "goal"]);
 
 /**
  * @param {Stage} stage
  * @param {Asked} state
- * @param {MotionData} data
+ * @param {MotionPage} data
  * @returns {Handle[]}
  */
 export function stationHandles(stage, state, data) {

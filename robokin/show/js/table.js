@@ -9,7 +9,7 @@ import {control, element} from "./elements.js";
  * @param {string[]} names  the names of the rows
  * @param {string[]} heads  the headings of the columns; if empty, there are none
  * @param {number[]} widths  one entry per column or, without heads, the cells in each row
- * @param {(row: number) => void} [take]  called with a chosen row; makes row names buttons
+ * @param {(row: number) => void} [take]  called with a chosen row; if given, row names are buttons
  */
 export function table(names, heads, widths, take) {
   /** @type {(k: number) => number} */

@@ -4,7 +4,7 @@
 import {distance_from_singularity} from "./dexterity.js";
 import {matrix, wrapped} from "./kinematics.js";
 import {ik, singularities} from "./geometries.js";
-import {explain, nearest, representative, within} from "./branches.js";
+import {explain, nearest, nearestLimit, representative, within} from "./branches.js";
 import {fill} from "./blanks.js";
 import {number} from "./canvas.js";
 import {copyButton} from "./copy.js";
@@ -17,9 +17,10 @@ import {frame} from "./target.js";
 import {targetHandles} from "./target_handles.js";
 import {degrees, inCode, radians, rotationOf} from "./turns.js";
 
-/** @import {ArmData, BranchTask, TargetPage, With} from "./page.js" */
+/** @import {ArmData, BranchTask, PageThing, TargetPage, With} from "./page.js" */
 /** @import {Point} from "./canvas.js" */
 /** @import {ClosedFormArm} from "./kinematics.js" */
+/** @import {Now} from "./recordings.js" */
 /** @import {Stage} from "./stage.js" */
 
 /** @typedef {TargetPage & {arm: ClosedFormArm}} TargetExplorer */
@@ -29,13 +30,13 @@ import {degrees, inCode, radians, rotationOf} from "./turns.js";
  * @typedef {{place: Point, turns: number[], rotation?: number[], angle?: number}} Target
  */
 /**
- * The current target, the posture of the arm, the branch that the reader wants (-1: the nearest
+ * The current target, the posture of the arm, the branch that the reader wants (-1 for the nearest
  * one) and the branch shown.
  * @typedef {Target & {q: number[], wanted: number, chosen: number}} State
  */
 
 /**
- * Builds the view in every element that waits for this id.
+ * Builds the view in every placeholder with this id.
  * @param {string} id
  * @param {TargetExplorer} data
  */
@@ -54,6 +55,7 @@ function targetExplorer(stage, data) {
   /** @type {State} */
   const state = {...structuredClone(home), q: [...data.q], wanted: -1, chosen: 0};
   if (arm.target === "Transform") state.rotation = rotationOf(state.turns);
+  if (data.watched.length) stage.space.classList.add("rk-close");
 
   /** @type {(k: number) => void} */
   const want = k => {
@@ -90,21 +92,13 @@ function targetExplorer(stage, data) {
     count(usable);
     const {ellipsoid, speeds} = more.at(state.q),
       why = told(data.task, found.rows, exists),
-      says = why + summary(arm, words, state, usable, chosen) + speeds;
+      room = usable[chosen] ? roomLeft(data, found.rows[chosen]) : "",
+      says = why + summary(arm, words, state, usable, chosen) + room + speeds;
     stage.say(says);
     stage.name(fill(words.scene, {name: arm.name, values: inWords(data, values), says}));
-    markTarget(stage, state, words.target);
-    return [
-      {
-        name: arm.name,
-        chain: arm.chain,
-        q: state.q,
-        faded: !exists[chosen],
-        ghosts: ghostsOf(found),
-        axes: axes.on(),
-        ellipsoid,
-      },
-    ];
+    markTarget(stage, state, data);
+    const {place} = stage.handles;
+    return [{...posed(arm, found, state.q), axes: axes.on(), ellipsoid, handles: place}];
   });
 }
 
@@ -163,6 +157,23 @@ const inWords = ({controls}, values) =>
 /** @typedef {ReturnType<typeof foundAt>} Found */
 
 /**
+ * The arm in the posture q, with its joints past a limit and the other branches.
+ * @param {ArmData} arm
+ * @param {Found} found
+ * @param {number[]} q
+ */
+const posed = ({name, chain}, found, q) => ({
+  name,
+  chain,
+  q,
+  faded: !found.exists[found.chosen],
+  past: found.exists[found.chosen]
+    ? found.inside[found.chosen].flatMap((good, j) => (good ? [] : [j]))
+    : [],
+  ghosts: ghostsOf(found),
+});
+
+/**
  * The other branches that exist.
  * @param {Found} found
  */
@@ -171,7 +182,7 @@ const ghostsOf = ({rows, exists, usable, chosen}) =>
 
 /**
  * All branches at the target: the row, whether it exists, which of its joints are inside their
- * limits, its travel from the last posture; and the branch to show.
+ * limits, and its travel from the last posture; and the branch to show.
  * @param {Pick<TargetExplorer, "arm" | "turning">} data
  * @param {State} state
  */
@@ -210,13 +221,26 @@ const cells = ({arm, words, units}, {rows, exists, inside, travel}) =>
   ]);
 
 /**
- * Puts the target into the scene as a frame or a point.
+ * Puts the target into the scene as a frame or a point, beside the things that do not move.
  * @param {Stage} stage
  * @param {State} state
- * @param {string} name
+ * @param {TargetExplorer} data
  */
-function markTarget({scene}, {rotation, place}, name) {
-  scene.things = [rotation ? frame(name, matrix(rotation, place)) : point(name, place)];
+function markTarget({scene}, {rotation, place}, {scene: {things}, words: {target}}) {
+  const mark = rotation ? frame(target, matrix(rotation, place)) : point(target, place);
+  scene.things = [.../** @type {Now<PageThing>[]} */ (things), mark];
+}
+
+/**
+ * How far the watched joint that is nearest to a limit is from it, as a sentence.
+ * @param {TargetExplorer} data
+ * @param {number[]} q
+ */
+function roomLeft({arm, words, watched}, q) {
+  if (!watched.length) return "";
+  const {joint, side, room} = nearestLimit(arm, q, watched),
+    limit = arm.limits_in_words[joint][side];
+  return ` ${fill(words.room, {joint: joint + 1, room: number(degrees(room), 1), limit})}`;
 }
 
 /**

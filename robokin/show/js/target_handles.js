@@ -3,7 +3,7 @@
 import {fill} from "./blanks.js";
 import {number} from "./canvas.js";
 import {alongCurve, inScreen, reachOf} from "./handles.js";
-import {matrix, plus, product} from "./kinematics.js";
+import {dot, matrix, plus, product} from "./kinematics.js";
 import {AXES} from "./triad.js";
 import {aboutAxis, degrees, normal, radians, rollPitchYaw, rotationOf} from "./turns.js";
 
@@ -13,6 +13,8 @@ import {aboutAxis, degrees, normal, radians, rollPitchYaw, rotationOf} from "./t
 /** @import {Handle} from "./handles.js" */
 /** @import {Stage} from "./stage.js" */
 /** @import {State, Target, TargetExplorer} from "./target_explorer.js" */
+
+const ALONG = 0.9999; // cosine of an angle to the line of sight that counts as none
 
 /**
  * The common arguments of all handles of a target.
@@ -99,7 +101,11 @@ function alongHandle(held, k) {
     look: "rk-arrow",
     mark: AXES[k],
     color: AXES[k],
-    at: camera => plus(state.place, axisOf(state, k), reachOf(camera)),
+    at(camera) {
+      const axis = axisOf(state, k);
+      if (Math.abs(dot(axis, camera.toward)) > ALONG) return [NaN, NaN, NaN]; // cannot be dragged
+      return plus(state.place, axis, reachOf(camera));
+    },
     value: () => placeText(held),
     grab(camera) {
       const from = state.place,

@@ -5,7 +5,7 @@
 const PARTS = 4,
   STEPS = [0.1, 0.2, 0.25, 0.5, 1, 2, 2.5, 5, 10, 20];
 
-/** Rounds to six digits, and noise to zero. @type {(x: number) => number} */
+/** Rounds to six digits, and rounding errors to zero. @type {(x: number) => number} */
 const digits = x => (Math.abs(x) > 1e-6 ? Number(x.toPrecision(6)) : 0);
 
 /**
@@ -40,9 +40,9 @@ export function scale(low, high) {
 }
 
 /**
- * A number of steps, rounded so that noise does not move it past an integer.
+ * A number of steps, rounded so that rounding errors do not move it past an integer.
  * @param {number} x
- * @param {number} offset  the offset in steps: the larger, the more noise
+ * @param {number} offset  the offset in steps: the larger it is, the larger the rounding errors
  * @param {(x: number) => number} round  rounds down or up
  */
 function whole(x, offset, round) {

@@ -57,12 +57,12 @@ import {point} from "./mark.js";
  */
 /** @typedef {{answer: Answer, question: Question, tours: (?Tour)[], cells: string[][]}} Heard */
 /**
- * `touched`: the point that was grabbed last; `chosen`: the chosen row of the table.
+ * `touched` is the point that was grabbed last, `chosen` the chosen row of the table.
  * @typedef {Question & {touched: number, chosen: number, time: number, playing: boolean}} State
  */
 
 /**
- * Builds the view in every element that waits for this id.
+ * Builds the view in every placeholder with this id.
  * @param {string} id
  * @param {TourExplorer} data
  */
@@ -87,7 +87,7 @@ function tourExplorer(root, id, stage, data) {
     notes = element("ul", {class: "rk-notes"});
   beside(stage.side, stage.says, notes);
   stage.below.append(rows.node);
-  // the clock is below the scene: it works while the rest is asleep
+  // the clock is below the scene, so that it works while the rest is inactive
   const parts = clockRow();
   beside(stage.space, parts.row);
   const end = () => heard.question.T;

@@ -11,7 +11,7 @@ import {fk, origin} from "./kinematics.js";
 /** @typedef {ReturnType<typeof toured>} Tour */
 
 const FINE = 0.05; // rad: step of the fastest joint between two points of a drawn path
-// colour-blind readers can tell these colours apart, and the dashes differ, too
+// colour-blind readers can distinguish these colours, and the dashes differ, too
 /** @type {Record<TourName, Color>} */
 const COLORS = {greedy: "joint2", best: "joint1"};
 /** @type {Record<TourName, [width: number, dash?: number[]]>} */
@@ -55,8 +55,8 @@ export function toured(chain, {t, q, order, times}, name) {
 }
 
 /**
- * Sets the style of each handle: served, still to be served, left out or out of reach; and its rank
- * in both tours.
+ * Sets the style of each handle (served, still to be served, left out, or out of reach), and shows
+ * its rank in both tours.
  * @param {HTMLElement} layer
  * @param {State} state
  * @param {Heard} heard
@@ -98,7 +98,7 @@ export const below =
       spot(g, to([x, y, 0]), 2, colors.soft, colors.paper, 0.5);
     }
     for (const tour of [...tours].reverse().filter(each => each !== null)) {
-      // the dashed tour is drawn last
+      // draw the dashed tour last
       if (tour.dips)
         stroke(
           g,

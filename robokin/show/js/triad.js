@@ -17,7 +17,7 @@ export const AXES = /** @type {const} */ (["x", "y", "z"]);
  * @param {number} length
  * @param {number} width
  * @param {number} alpha
- * @param {Box[]} [letters]  the letters are written, and their boxes added to this list
+ * @param {Box[]} [letters]  if given, letters are written and their boxes are added to it
  * @returns {Pixel[]}  their tips on the screen
  */
 export function triad(g, cam, pose, length, width, alpha, letters) {

@@ -79,7 +79,7 @@ export const inUnits = (units, q) =>
 export const lengths = (place, unit) => place.map(x => plain(x / unit.size, unit.size < 1 ? 3 : 6));
 
 /**
- * The values of a target for the blanks of a line of code.
+ * The values of a target that fill the blanks in a line of code.
  * @param {{place: number[], turns?: number[], angle?: number}} state
  * @param {Unit} unit
  * @returns {Object<string, string>}

@@ -1,14 +1,14 @@
-// Two links and the borders of their reach, as in arms/geometry.py.
+// Two links and the limits of their reach, as in arms/geometry.py.
 
 /** @import {Tolerances} from "./page.js" */
 
-/** @typedef {{kind: string, metres: number}} Gap  which border is crossed, and by how much */
+/** @typedef {{kind: string, metres: number}} Gap  which limit is exceeded, and by how much */
 
 export const SIGNS = [1, -1];
 
 /**
- * The triangle of two links whose ends are d apart, by half angles: see `two_levers`. null if there
- * is none.
+ * The triangle of two links whose ends are d apart, computed with half angles (see `two_levers`);
+ * null if there is none.
  * @param {number} upper
  * @param {number} fore
  * @param {number} d
@@ -30,7 +30,7 @@ export function twoLevers(upper, fore, d, {ROUNDING}) {
 }
 
 /**
- * The border that is exceeded most; `borders` maps names to the metres beyond them.
+ * The limit that is exceeded most. `borders` maps the name of each limit to the metres beyond it.
  * @param {Object<string, number>} borders
  * @returns {Gap}
  */

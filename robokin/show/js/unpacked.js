@@ -1,4 +1,4 @@
-// Unpacks the compact numbers of a page (page.py: Packed).
+// Decodes the compact numbers of a page (page.py: Packed).
 
 /** @import {Packed} from "./page.js" */
 
@@ -38,7 +38,7 @@ export function unpacked({steps, data}, motions, samples, nothing) {
 
 /**
  * The bytes of a text in base64, and the number of those below 128, which end a number. This loop
- * halves the time to unpack: `Uint8Array.from` and `filter` call a function for each byte.
+ * halves the time of decoding: `Uint8Array.from` and `filter` call a function for each byte.
  * @param {string} data
  * @returns {[Uint8Array, number]}
  */

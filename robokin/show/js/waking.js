@@ -1,5 +1,5 @@
-// The page's part of the widget that wakes a view (live.py): a model without a view of its own. It
-// finds its view whichever of the two comes first, even if the view is shown twice.
+// The page's part of the widget that activates a view (live.py): a model without a view of its own.
+// The model finds the view even if the view is created later than the model or is shown twice.
 
 /** @import {Arrived} from "./live.js" */
 

@@ -9,8 +9,9 @@ from .faces import Faces, PageFaces
 from .mark import Mark, PageMark
 from .target import PageTarget, Target
 from .thing import Thing
+from .zone import PageZone, Zone
 
-__all__ = ["Faces", "Mark", "PageThing", "Target", "Thing"]
+__all__ = ["Faces", "Mark", "PageThing", "Target", "Thing", "Zone"]
 
 # The kinds, in the order in which a page draws them.
-PageThing: TypeAlias = PageFaces | PageMark | PageTarget
+PageThing: TypeAlias = PageFaces | PageZone | PageMark | PageTarget

@@ -25,7 +25,7 @@ class PageFaces(TypedDict):
 
 @dataclass(frozen=True, init=False, eq=False)
 class Faces(Thing):
-    """Polygons, each with 3 to 100 corners (k, 3) in metres. They do not move."""
+    """Fixed polygons, each with 3 to 100 corners (k, 3) in metres."""
 
     corners: tuple[Floats, ...]
 

@@ -25,9 +25,9 @@ class PageTarget(TypedDict):
 
 @dataclass(frozen=True, init=False, eq=False)
 class Target(Thing):
-    """A named pose. The shape of a moving one is (samples,), or has the leading axes of the motion
-    before the samples. A page draws the straight route between targets called start, via and goal,
-    and shows how near the path passes to via.
+    """A named pose. The shape of a moving pose is (samples,), or the leading axes of the motion and
+    then the samples. A page draws the straight route between targets called start, via and goal,
+    and shows how near the path comes to via.
     """
 
     name: str

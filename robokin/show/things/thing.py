@@ -18,8 +18,8 @@ if TYPE_CHECKING:
 
 
 class PageWay(Packed):
-    """Numbers in k columns that may change; `motions` or `samples` is 1 if the same numbers serve
-    all motions or all samples. A thing is not drawn while one of its numbers is NaN.
+    """Numbers in k columns that may change. `motions` or `samples` is 1 if all motions or all
+    samples have the same numbers. A thing is not drawn while one of its numbers is NaN.
     """
 
     motions: int
@@ -51,17 +51,17 @@ class Way(Sealed):
     last: tuple[int, ...] = ()
 
     def at(self, sample: int | None) -> Floats:
-        """The k numbers at a sample of the first motion."""
+        """Return the k numbers at a sample of the first motion."""
         one: Floats = self.rows[0, sample if sample and self.rows.shape[1] > 1 else 0]
         return one
 
     def page(self, kept: Ints | None) -> list[float] | PageWay:
-        """Return the page data; `kept` are the samples that the page contains."""
+        """Return the page data; `kept` contains the indices of the samples in the page."""
         return self._packed(kept) if self.shape else rounded(self.rows)
 
     def fit(self, lead: tuple[int, ...], count: int) -> None:
-        """Check the shape. ValueError: it does not fit motions of shape `lead` with `count`
-        samples.
+        """Check the shape. Raises ValueError if it does not fit motions of shape `lead` with
+        `count` samples.
         """
         wanted = dict.fromkeys([(count,), (*lead, count), (*lead, 1)])
         if self.shape and self.shape not in wanted:
@@ -92,13 +92,15 @@ class Thing(ABC):
 
     @abstractmethod
     def page(self, kept: Ints | None) -> "PageThing":
-        """Return the page data; `kept` are the samples of moving values that the page contains."""
+        """Return the page data; `kept` contains the indices of the samples of moving values in the
+        page.
+        """
 
     @abstractmethod
     def seen(self, axis: float) -> Floats:
-        """Points (k, 3) of the whole motion that the camera must see; NaN is ignored. `axis` is the
-        length (m) of the axes of frames. (`seen` in a script returns the points at one moment; only
-        scenes that grow ask for them.)
+        """Return points (k, 3) of the whole motion that must be visible; NaN is ignored. `axis` is
+        the length (m) of the axes of frames. (In a script, `seen` returns the points at one moment,
+        and only scenes that grow call it.)
         """
 
     @abstractmethod
@@ -112,12 +114,12 @@ class Thing(ABC):
 
     @property
     def moves(self) -> bool:
-        """Whether its place depends on the motion."""
+        """Return whether the place of the thing depends on the motion."""
         return any(way.shape for way in self._ways() if not isinstance(way, Reading))
 
     def fit(self, lead: tuple[int, ...], count: int) -> None:
-        """Check the shapes. ValueError: one does not fit motions of shape `lead` with `count`
-        samples.
+        """Check the shapes. Raises ValueError if one of them does not fit motions of shape `lead`
+        with `count` samples.
         """
         for way in self._ways():
             way.fit(lead, count)
@@ -131,8 +133,8 @@ class Thing(ABC):
 
 
 def as_place(value: ArrayLike | Way, name: str) -> Way:
-    """Return places (..., 3) in metres, or one place (2,) or (3,), as a `Way`. ValueError: other
-    shapes, infinite numbers.
+    """Return places (..., 3) in metres, or one place (2,) or (3,), as a `Way`. Raises ValueError if
+    the shape is another one, or if a number is infinite.
     """
     if isinstance(value, Way):
         return value
@@ -146,7 +148,7 @@ def as_place(value: ArrayLike | Way, name: str) -> Way:
 
 
 def as_reading(value: ArrayLike | Reading, name: str) -> Reading:
-    """Return numbers (...) to be shown as a `Reading`. ValueError: numbers that are too large."""
+    """Return numbers (...) to show as a `Reading`. Raises ValueError if a number is too large."""
     if isinstance(value, Reading):
         return value
     given = np.atleast_1d(floats(value, name, finite=False))
@@ -161,5 +163,5 @@ def moving(given: Floats, name: str, last: tuple[int, ...] = ()) -> Way:
 
 
 def _flat(given: Floats) -> Floats:
-    """Numbers (..., samples, k) with all motions along one axis."""
+    """Return numbers (..., samples, k) with all motions along one axis."""
     return frozen(given.reshape(math.prod(given.shape[:-2]), *given.shape[-2:]))

@@ -1,0 +1,140 @@
+"""Exercise 1: a student's own belt, and the mistakes in its bin and in the number of its arms."""
+
+from collections.abc import Mapping
+from functools import cache
+from math import ceil, floor
+from typing import Any
+
+import numpy as np
+
+from robokin import mm
+from robokin.course.exercises import in_words
+from robokin.course.told import floats, one_number
+from robokin.course.variants import Numbers, dice
+from robokin.jobs.conveyor import BIN, ways_from
+
+from .shared import COUNT as OBJECTS
+from .shared import Floats, taken
+
+COUNT = 4
+KEYS = ("bin", "least", "arms")
+LOW, HIGH = np.array([[150, -450], [350, 450]]) * mm  # where the bin may stand: x and y
+HEIGHT = 250 * mm
+CORNER = (350 * mm, -450 * mm)  # the least time of one object
+MOST_ARMS = 12
+Fault = tuple[str, str]
+Line = tuple[tuple[float, float], int, int]  # the bin, the bound, the arms
+
+
+@cache
+def ways(place: tuple[float, float]) -> Floats:
+    """The time of one way from a bin to each place of the window."""
+    return ways_from([*place, HEIGHT])
+
+
+def none_missed(numbers: Mapping[str, Any], place: tuple[float, float], arms: int) -> bool:
+    v, gap, spread = (float(numbers[name]) for name in ("v", "gap", "spread"))
+    return all(
+        taken(v, spread, ways(place), gap=gap, arms=arms, seed=seed) == OBJECTS
+        for seed in numbers["seeds"]
+    )
+
+
+def needed(numbers: Mapping[str, Any], place: tuple[float, float]) -> int:
+    """The least number of arms that miss nothing."""
+    return next(n for n in range(1, MOST_ARMS) if none_missed(numbers, place, n))
+
+
+@cache
+def given(who: Any) -> Numbers:
+    """A belt, and a number of arms that is too small for the bin of the lab."""
+    roll = dice("conveyor", who)
+    while True:
+        values: dict[str, Any] = {
+            "v": roll.randrange(200, 310, 10) * mm,
+            "gap": roll.randrange(130, 180, 10) * mm,
+            "spread": roll.randrange(40, 95, 5) / 100,
+            "seeds": sorted(roll.sample(range(100), 3)),
+        }
+        most = needed(values, CORNER)
+        if not none_missed(values, (float(BIN[0]), float(BIN[1])), most):
+            break
+    units = {"v": ("mm/s", mm), "gap": ("mm", mm), "most": ("arms", 1.0)}
+    return Numbers(values | {"most": most}, units)
+
+
+def form(answer: Any, numbers: Any) -> Line:
+    if not isinstance(answer, Mapping) or not set(KEYS) <= set(answer):
+        wanted = 'wanted {"bin": [x, y] in m, "least": a whole number, "arms": a whole number}'
+        raise ValueError(f"{wanted}, got {in_words(answer)}")
+    try:
+        place = floats(answer["bin"])
+    except (TypeError, ValueError):
+        place = np.empty(0)
+    if place.shape != (2,) or not np.isfinite(place).all():
+        raise ValueError(f"bin: wanted x and y in m, got {in_words(answer['bin'])}")
+    counts = []
+    for key in KEYS[1:]:
+        try:
+            value = one_number(answer[key])
+        except (TypeError, ValueError):
+            value = float("nan")
+        if not 0 <= value <= 1000 or value % 1:
+            raise ValueError(f"{key}: wanted a whole number, got {in_words(answer[key])}")
+        counts.append(int(value))
+    return (float(place[0]), float(place[1])), counts[0], counts[1]
+
+
+def faults(line: Line, numbers: Any) -> list[Fault]:
+    place, least, arms = line
+    if (np.array(place) < LOW - 1e-9).any() or (np.array(place) > HIGH + 1e-9).any():
+        name = "millimetres for metres" if max(map(abs, place)) > 2 else "the bin stands elsewhere"
+        says = (
+            "The bin has to stand at x from 150 to 350 mm and y from −450 to 450 mm, and your "
+            "numbers are in metres. Nothing else was checked."
+        )
+        return [(name, says)] * COUNT
+    found = []
+    bound = bounds(place, numbers)
+    if least != bound["the bound"]:
+        name = next((each for each, n in bound.items() if n == least), "another bound")
+        found.append((name, WHY.get(name, WHY["another bound"])))
+    most = int(numbers["most"])
+    if arms < 1 or arms > MOST_ARMS or not none_missed(numbers, place, arms):
+        too_few = 1 <= arms <= MOST_ARMS
+        name = "the bound taken for enough" if arms == bound["the bound"] else "too few arms"
+        many = "one arm" if arms == 1 else f"{arms} arms"
+        says = f"With {many} at this bin some objects of a stream are missed."
+        if not too_few:
+            says = f"Wanted 1 to {MOST_ARMS} arms, got {arms}."
+        found.append((name if too_few else "no number of arms for a line", says))
+    if arms > most:
+        says = f"You may use {most} arms at most. A bin with a smaller c needs fewer."
+        found.append(("more arms than allowed", says))
+    return found
+
+
+WHY = {
+    "rounded down": "The bound is rounded down. With so few arms, more objects come than the arms "
+    "have time for.",
+    "there without back": "c is the time there and back: twice the way.",
+    "the bin of the lab": "c belongs to the bin. Yours stands elsewhere, so it has another c.",
+    "the mean over the window": "The bound needs the least c over the window. The mean is no "
+    "bound: the arms may take most objects near the bin.",
+    "another bound": "The bound is c v / g, rounded up: c is 2 ways_from([x, y, 0.25]).min() for "
+    "your bin, and g is the mean gap.",
+}
+
+
+def bounds(place: tuple[float, float], numbers: Mapping[str, Any]) -> dict[str, int]:
+    """The bound, and the numbers that mistakes give."""
+    per_second = float(numbers["v"]) / float(numbers["gap"])
+    c = 2 * ways(place)
+    lab = 2 * ways((float(BIN[0]), float(BIN[1])))
+    return {
+        "the bound": ceil(c.min() * per_second - 1e-9),
+        "rounded down": floor(c.min() * per_second),
+        "the bin of the lab": ceil(lab.min() * per_second),
+        "the mean over the window": ceil(c.mean() * per_second),
+        "there without back": ceil(c.min() / 2 * per_second),
+    }

@@ -1,0 +1,64 @@
+"""Views that open after the guess, for the predictions of this lab."""
+
+from typing import Any
+
+import numpy as np
+
+from robokin import mm
+from robokin.jobs.conveyor import ALONG, GAP, serve, spaced, ways_from
+from robokin.show import figure
+from robokin.show.palette import COMPARED, REMARK
+
+from .predictions import SPEEDS, p1, p2, p9
+from .shared import COUNT
+
+
+def p1_view() -> Any:
+    facts = p1()
+    return (
+        f"{facts['c']:.2f} s for each object x {facts['rate']:.2f} objects a second = "
+        f"{facts['load']:.2f} arms, busy all the time.\nRounded up: {facts['up']} arms."
+    )
+
+
+def p2_view() -> Any:
+    facts = p2()
+    says = (
+        "Where one arm meets its objects, over the time. By back soonest it takes "
+        f"{facts['soon']}, most near the place where they come in; by first come "
+        f"{facts['first']}, most near the far end of the window."
+    )
+    fig = figure(says, height=3.4)
+    ax = fig.subplots()
+    stream = spaced(COUNT, GAP, 0.5)
+    for first_come, (color, _) in zip((False, True), COMPARED, strict=False):
+        (trips,) = serve(stream, 150 * mm, ALONG, ways_from(), first_come=first_come)
+        ax.plot(trips.meets, ALONG[trips.places] / mm, "ov"[first_come], color=color, ms=4)
+        name = "first come" if first_come else "back soonest"
+        ax.text(202, np.median(ALONG[trips.places]) / mm, name, color=color, va="center")
+    ax.set(xlabel="time, s", ylabel="place along the belt, mm", xlim=(0, 265), ylim=(-430, 430))
+    ax.set_title(f"{facts['soon']} objects near the bin, or {facts['first']} far from it")
+    fig.tight_layout()
+    return fig
+
+
+def p9_view() -> Any:
+    facts = p9()
+    even, uneven = facts["even"], facts["uneven"]
+    says = (
+        f"Objects missed of 200 over the belt speed. Evenly spaced: none up to {even} "
+        f"mm/s. Uneven: none up to {uneven} mm/s, then more and more."
+    )
+    fig = figure(says, height=3.4)
+    ax = fig.subplots()
+    for name, (color, line) in zip(("even", "uneven"), COMPARED, strict=False):
+        lost = facts["lost"][name]
+        ax.plot(SPEEDS, lost, line, color=color, lw=2.2, marker="o", ms=4)
+        higher = lost[-1] == max(facts["lost"]["even"][-1], facts["lost"]["uneven"][-1])
+        ax.text(142, lost[-1] + (3 if higher else -3), name, color=color, va="center")
+    ax.axvline(facts["rule"], color=REMARK, ls=":", lw=1.3)
+    ax.text(facts["rule"] - 1, 45, "c v / g = 1", color=REMARK, ha="right")
+    ax.set(xlabel="belt speed, mm/s", ylabel="objects missed of 200", xlim=(58, 150), ylim=(-2, 58))
+    ax.set_title(f"One arm: even objects up to {even} mm/s, uneven up to {uneven}")
+    fig.tight_layout()
+    return fig

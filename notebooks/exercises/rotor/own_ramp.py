@@ -1,0 +1,83 @@
+"""Exercise 1: a student's own load, and the mistakes in its ramp."""
+
+from collections.abc import Mapping
+from dataclasses import replace
+from math import ceil, sqrt
+from typing import Any
+
+from robokin.course.exercises import in_words
+from robokin.course.told import apart, one_number
+from robokin.course.variants import Numbers, dice
+from robokin.jobs.steppers import ramp
+
+from .shared import MOTOR, ONES, PULSES
+
+COUNT = 3
+KEYS = ("start", "end", "seconds")
+WEAK = replace(MOTOR, torque=0.8 * MOTOR.torque)
+SWINGS = 40  # the time allowed, in units of sqrt(inertia / torque) of the weaker motor
+LONGEST = 10.0  # s: a longer move is not simulated
+Fault = tuple[str, str]
+Ramp = tuple[float, float, float]  # start and end in pulses/s, and its time in s
+
+
+def given(who: Any) -> Numbers:
+    """A load and a time that is too short for a start at one frequency."""
+    load = dice("rotor", who).randrange(10, 42, 2) * 1e-7
+    swing = sqrt((WEAK.inertia + load) / WEAK.torque)
+    values = {"load_inertia": load, "within": ceil(100 * SWINGS * swing - 1e-9) / 100}
+    return Numbers(values, {"load_inertia": ("g cm²", 1e-7), "within": ("s", 1.0)})
+
+
+def form(answer: Any, numbers: Any) -> Ramp:
+    if not isinstance(answer, Mapping) or not set(KEYS) <= set(answer):
+        wanted = 'wanted {"start": pulses/s, "end": pulses/s, "seconds": s}'
+        raise ValueError(f"{wanted}, got {in_words(answer)}")
+    found = []
+    for key in KEYS:
+        try:
+            value = one_number(answer[key])
+        except (TypeError, ValueError):
+            value = float("nan")
+        if not (0 < value < 1e6 or (value == 0 and key == "seconds")):
+            raise ValueError(f"{key}: wanted a positive number, got {in_words(answer[key])}")
+        found.append(value)
+    start, end, seconds = found
+    if start > end:
+        raise ValueError(f"start and end: wanted start <= end, got {start:g} and {end:g}")
+    return start, end, seconds
+
+
+def faults(answer: Ramp, numbers: Any) -> list[Fault]:
+    load, within = float(numbers["load_inertia"]), float(numbers["within"])
+    times = ramp(PULSES, *answer)
+    takes = float(times[-1])
+    found = []
+    if takes <= LONGEST:
+        full, weak = (each.run(times, ONES, 0, load).lost for each in (MOTOR, WEAK))
+        if full:
+            found.append((why_lost(answer, load), f"It loses {full} of {PULSES} steps. {WAYS}"))
+        if weak:
+            name = "only with the full torque" if not full else why_lost(answer, load)
+            says = f"With 80 % of its torque the motor loses {weak} of {PULSES} steps."
+            found.append((name, says))
+    if takes > within:
+        took, allowed = apart(takes, within, 2)
+        says = f"The move takes {took} s; allowed are {allowed} s."
+        late = answer[2] > 1 and ramp(PULSES, *answer[:2], answer[2] / 1000)[-1] <= within
+        if late:
+            says += " The time of the ramp is in seconds."
+        found.append(("milliseconds for seconds" if late else "too slow", says))
+    return found
+
+
+WAYS = "A ramp that begins lower, ends lower, or takes longer loses fewer."
+
+
+def why_lost(answer: Ramp, load: float) -> str:
+    """The name of the mistake in a ramp with which steps are lost."""
+    start, end, seconds = answer
+    if seconds == 0 or end < 1.01 * start:
+        return "no ramp"
+    fast = start > MOTOR.start_frequency(load_inertia=load)
+    return "begins too fast" if fast else "too steep or too fast"

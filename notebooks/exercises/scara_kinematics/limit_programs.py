@@ -1,8 +1,0 @@
-"""Helpers for the correct and wrong programs of exercise 3 of this lab."""
-
-import numpy as np
-
-from robokin import SCARA, deg
-from robokin.units import wrapped
-
-__all__ = ["SCARA", "deg", "np", "wrapped"]

@@ -1,0 +1,217 @@
+// The corner of a blended motion, close up, with a ring that pulls the path away from via: how far
+// the tool cuts the corner, and how hard the joints work for it. The arm and its accelerations
+// stand beside it.
+
+import {fill} from "./blanks.js";
+import {motionOf} from "./blended.js";
+import {number} from "./canvas.js";
+import {orbit, sceneCanvas} from "./controls.js";
+import {cornerOf, cornerPicture, offset} from "./corner_picture.js";
+import {element} from "./elements.js";
+import {plus} from "./kinematics.js";
+import {panelOf} from "./motion_panels.js";
+import {armAt, motionParts, notes} from "./motion_parts.js";
+import {decimalsOf} from "./peaks.js";
+import {sceneOf, sceneView} from "./scene.js";
+import {frameOf} from "./stage.js";
+import {scale} from "./ticks.js";
+
+/** @import {MotionPage} from "./page.js" */
+/** @import {Motion, Tops} from "./blended.js" */
+/** @import {CornerAt} from "./corner_picture.js" */
+/** @import {Handle} from "./handles.js" */
+/** @import {Drawn, State} from "./motion_parts.js" */
+/** @import {Shown} from "./scene.js" */
+
+const ORDER = 2; // the panel that is shown: accelerations
+
+/**
+ * @param {HTMLElement} root
+ * @param {MotionPage} data
+ */
+export function cornerExplorer(root, data) {
+  const corner = cornerOf(data),
+    canvas = element("canvas", {class: "rk-scene rk-flat", role: "img"}),
+    told = toldBeside(canvas, data.words);
+  const seen = () => corner.seen(state.blend, data.corners[state.corner]),
+    stage = frameOf(
+      root,
+      data,
+      cornerPicture(canvas, data, corner, seen, cam => ring.at(cam)),
+    ),
+    parts = motionParts(stage, data),
+    {state, clock, motion} = parts,
+    ring = ringOf(data, state, corner, () => motion.now().near?.text ?? ""),
+    small = armPicture(data, stage.ask);
+  stage.frame.classList.add("rk-corner");
+  stage.side.parentElement?.before(told.node);
+  stage.side.after(small.canvas);
+  stage.below.append(
+    element("div", {class: "rk-columns"}, ...parts.inputs.rows),
+    element("div", {class: "rk-row"}, element("div", {}, stage.says, stage.hint), parts.copy),
+  );
+  stage.handles.set([ring]);
+  state.time = state.duration / 2; // the tool is in the corner
+  const opening = motionOf(data, state);
+  /** @type {?{drawn: Drawn, arms: Shown[]}} */
+  let shown = null;
+  stage.run(
+    now => {
+      clock.pass(now);
+      const found = motion.now(),
+        tops = motion.tops(parts.held()),
+        worst = hardest(data, found, tops),
+        arms = [{...armAt(data, found, parts.sample()), near: found.near}];
+      parts.inputs.tell();
+      clock.tell();
+      stage.say(notes(data, {...found, jumps: []}).join(" "));
+      told.tell(sentences(data, found, tops, worst));
+      const before = state.duration === data.start_values.duration ? opening : null,
+        panel = panelOf(
+          data,
+          found,
+          found.a,
+          ORDER,
+          parts.sample(),
+          before && {rows: before.a, gaps: before.gaps},
+        );
+      for (const line of panel.lines) line.faint = worst >= 0 && line.joint !== worst;
+      const curves = {panels: [panel], large: 0, names: []};
+      shown = {drawn: [curves, found.t, scale(0, state.duration), state.time], arms};
+      return arms;
+    },
+    [small.canvas, parts.canvas],
+    () => {
+      if (!shown) return;
+      parts.curves.draw(...shown.drawn);
+      small.draw(shown.arms);
+    },
+  );
+}
+
+/**
+ * The line of sentences above the picture, which are also its name.
+ * @param {HTMLCanvasElement} canvas
+ * @param {MotionPage["words"]} words
+ */
+function toldBeside(canvas, {closeUp}) {
+  const node = element("p", {class: "rk-told", role: "status"});
+  return {
+    node,
+    /** @param {HTMLElement[]} said */
+    tell(said) {
+      const name = closeUp + said.map(({textContent}) => textContent).join(" ");
+      if (canvas.ariaLabel === name) return;
+      node.replaceChildren(...said);
+      canvas.ariaLabel = name;
+    },
+  };
+}
+
+/**
+ * The ring that moves the middle of the path. It stands between the path and via.
+ * @param {MotionPage} data
+ * @param {State} state
+ * @param {CornerAt} corner
+ * @param {() => string} distance
+ * @returns {Handle}
+ */
+function ringOf(
+  {words, corners, controls: [{low, high, step: fine, decimals}], start_values},
+  state,
+  corner,
+  distance,
+) {
+  const kind = () => corners[state.corner];
+  /** @type {(blend: number) => void} */
+  const take = blend => {
+    // rounded, so that the numbers belong to the blend that is shown
+    state.blend = +Math.min(Math.max(blend, low), high).toFixed(decimals);
+  };
+  return {
+    id: "blend",
+    name: words.takeBlend,
+    look: "rk-free",
+    at: camera => plus(corner.middle(state.blend, kind()), corner.right, offset() / camera.scale),
+    value: () => fill(words.blendIs, {blend: number(state.blend, decimals), distance: distance()}),
+    grab({scale}) {
+      const from = state.blend,
+        per = corner.perMetre(kind()) / scale;
+      return dx => take(from - dx * per);
+    },
+    step(right, up, big) {
+      take(state.blend + (up - right) * fine * (big ? 10 : 1));
+    },
+    home() {
+      state.blend = start_values.blend;
+    },
+  };
+}
+
+/**
+ * A small picture of the whole arm, which the reader can turn.
+ * @param {MotionPage} data
+ * @param {() => void} ask
+ */
+function armPicture(data, ask) {
+  const scene = sceneOf(data),
+    canvas = sceneCanvas(scene, data.alt),
+    view = sceneView(canvas, scene),
+    state = {view: [...scene.view]};
+  orbit(canvas, scene, state, ask);
+  return {
+    canvas,
+    /** @param {Shown[]} arms */
+    draw: arms => view.draw(state.view, arms, ""),
+  };
+}
+
+/**
+ * The joint with the greatest acceleration; -1 if the speeds jump. Lengths do not compare with
+ * angles: they count only if no joint turns.
+ * @param {MotionPage} data
+ * @param {Motion} motion
+ * @param {Tops} tops
+ */
+function hardest({arm}, {jumps}, {values: [, accelerations]}) {
+  if (jumps.length) return -1;
+  const turns = arm.prismatic.includes(false);
+  return accelerations.reduce(
+    (best, x, j) =>
+      !(turns && arm.prismatic[j]) && x > (accelerations[best] ?? -Infinity) ? j : best,
+    -1,
+  );
+}
+
+/**
+ * How far the path is from via and how hard the joints work, each with its number in bold.
+ * @param {MotionPage} data
+ * @param {Motion} motion
+ * @param {Tops} tops
+ * @param {number} worst
+ */
+function sentences({words, units}, {near, jumps}, {sure, values}, worst) {
+  /** @type {HTMLElement[]} */
+  const said = [];
+  if (near) said.push(bold(words.near, "distance", {distance: near.text}));
+  if (worst >= 0) {
+    const value = values[1][worst],
+      {name} = units[worst],
+      most = `${number(value, decimalsOf(value))}${name === "°" ? "" : " "}${name}/s²`;
+    said.push(bold(words.hardest, "value", {joint: worst + 1, value: sure ? most : `≈ ${most}`}));
+  }
+  for (const {time} of jumps)
+    said.push(element("span", {class: "rk-alarm"}, fill(words.jump, {time: number(time, 2)})));
+  return said;
+}
+
+/**
+ * A sentence with its blanks filled, one of them in bold.
+ * @param {string} sentence
+ * @param {string} name
+ * @param {Record<string, string | number>} facts
+ */
+function bold(sentence, name, facts) {
+  const [before, after] = sentence.split(`{${name}}`).map(part => fill(part, facts));
+  return element("span", {}, before, element("b", {}, String(facts[name])), after);
+}

@@ -1,0 +1,121 @@
+"""The zone of a SCARA: where its tool can be, seen from above."""
+
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any, Literal, TypedDict
+
+import numpy as np
+
+from ..._arrays import Floats, Ints, frozen
+from ..._validate import instance
+from ...arms.arm import ClosedFormArm
+from ...arms.scara import ScaraGeometry
+from ...units import deg
+from .. import layers
+from ..numbers import rounded
+from ..palette import JOINT_STYLES, SOFT
+from .thing import Thing
+
+if TYPE_CHECKING:
+    from ..scene import Scene
+
+TURN = 2 * np.pi
+STEP = 5 * deg  # at most, between two points of an arc
+WIDTH = 2.0  # of a line
+MINUS = "\N{MINUS SIGN}"
+
+
+class ZoneSide(TypedDict):
+    """A side of a zone: the joint that is at its limit there, from 0 (None: the arm is stretched or
+    folded there), the dashes of its line in pixels, and points (x, y, z).
+    """
+
+    joint: int | None
+    dash: list[float]
+    points: list[list[float]]
+
+
+class PageZone(TypedDict):
+    """The sides around the zone of each elbow, in order, and labels with their points (x, y, z)."""
+
+    kind: Literal["zone"]
+    elbows: list[list[ZoneSide]]
+    labels: list[tuple[str, list[float]]]
+
+
+@dataclass(frozen=True, init=False, eq=False)
+class Zone(Thing):
+    """The places (x, y) that the tool of a SCARA reaches while joints 1 and 2 are inside their
+    limits, as an area on the floor: one area for each elbow, which overlap where both reach. A line
+    in the colour of a joint is where that joint is at its limit. TypeError: another arm.
+
+    sides   for each elbow its sides in order: the joint at its limit, from 0, or None where the arm
+            is stretched or folded; and points (k, 3)
+    labels  texts with their points (3,)
+    """
+
+    sides: tuple[tuple[tuple[int | None, Floats], ...], ...]
+    labels: tuple[tuple[str, Floats], ...]
+
+    def __init__(self, arm: ClosedFormArm) -> None:
+        geometry = instance(arm, ClosedFormArm, "arm").geometry
+        if not isinstance(geometry, ScaraGeometry):
+            raise TypeError(f"arm: wanted a SCARA, got {arm.name}")
+        sides, labels = [], []
+        for elbow in (+1, -1):
+            low, high = np.clip(np.sort(elbow * arm.limits[1]), 0, np.pi)  # how far joint 2 bends
+            if low == high:
+                continue
+            near, far = elbow * low, elbow * high
+            # `stop` is the upper limit of joint 1 if the arm bends to the left, else the lower one
+            start, stop = np.clip(arm.limits[0], None, arm.limits[0, 0] + TURN)[::elbow]
+            turned = None if abs(stop - start) >= TURN - 1e-9 else 0
+            joints = [1 if low else None, turned, 1 if high < np.pi else None, turned]
+            corners = np.array([(start, near), (stop, near), (stop, far), (start, far)])
+            points = [_between(arm, *corners[[k, (k + 1) % 4]]) for k in range(4)]
+            sides.append(tuple(zip(joints, points, strict=True)))
+            for k, limit, share in ((1, stop, 0.15), (2, far, 0.4)):
+                if (joint := joints[k]) is not None:
+                    text = f"q{joint + 1} = {limit / deg:g}°".replace("-", MINUS)
+                    labels.append((text, points[k][round(share * (len(points[k]) - 1))]))
+        self.hold(sides=tuple(sides), labels=tuple(labels))
+
+    def page(self, kept: Ints | None) -> PageZone:
+        return {
+            "kind": "zone",
+            "elbows": [[_side(joint, points) for joint, points in around] for around in self.sides],
+            "labels": [(text, rounded(at, 4)) for text, at in self.labels],
+        }
+
+    def seen(self, axis: float) -> Floats:
+        return np.concatenate([np.empty((0, 3)), *(p for around in self.sides for _, p in around)])
+
+    def draw(self, scene: "Scene", sample: int | None) -> None:
+        for around in self.sides:
+            outline = np.concatenate([points for _, points in around])
+            scene.faces([outline], facecolor=SOFT, alpha=0.2, edgecolor="none")
+            for joint, points in around:
+                style: dict[str, Any] = {"color": SOFT}
+                if joint is not None:
+                    dash = JOINT_STYLES[joint]["dash"]
+                    style = {"color": JOINT_STYLES[joint]["color"], "dashes": dash or (1, 0)}
+                scene.line(points, corner=False, linewidth=WIDTH, zorder=layers.FACES, **style)
+        for text, at in self.labels:
+            scene.label(text, at)
+
+
+def _between(arm: ClosedFormArm, start: Floats, end: Floats) -> Floats:
+    """Places (k, 3) of the tool, on the floor, while one of joints 1 and 2 turns from its value in
+    `start` (2,) to that in `end` (2,).
+    """
+    count = int(np.ceil(abs(end - start).max() / STEP)) + 1
+    q = np.concatenate([np.linspace(start, end, count), np.zeros((count, 2))], axis=-1)
+    return frozen(arm.fk(q).translation * [1, 1, 0])
+
+
+def _side(joint: int | None, points: Floats) -> ZoneSide:
+    dash = () if joint is None else JOINT_STYLES[joint]["dash"]
+    return {
+        "joint": joint,
+        "dash": [WIDTH * x for x in dash],
+        "points": [rounded(point, 4) for point in points],
+    }

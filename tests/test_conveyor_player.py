@@ -1,0 +1,103 @@
+"""The player of the conveyor: what it draws, by the places that the belt and the arms give."""
+
+import numpy as np
+import pytest
+
+from robokin import mm, spbu_arm
+from robokin.jobs.conveyor import ALONG, BIN, GAP, LINKS, WINDOW, serve, spaced, ways_from
+from robokin.show import conveyor_player
+
+SPREADS = [0.0, 0.8]
+
+
+@pytest.fixture(scope="module")
+def drawn():
+    """The arguments of `animate` for four arms at 250 mm/s."""
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr("robokin.show.conveyor.animate", lambda *given, **named: (given, named))
+        return conveyor_player(0.25, SPREADS, 4)
+
+
+def lanes(named, k):
+    return np.array([lane[k] for lane, _ in named["circles"]])
+
+
+def test_objects_lie_on_the_belt_or_hang_on_a_tool(drawn):
+    (machines, clock, motions), named = drawn
+    feet = named["bases"]
+    tools = [
+        machine.fk(q).translation + [*foot, -30 * mm]
+        for machine, q, foot in zip(machines, motions, feet, strict=True)
+    ]
+    for k, spread in enumerate(SPREADS):
+        offsets = spaced(200, GAP, spread)
+        held = 0
+        for lane in lanes(named, k):
+            for t, place in zip(clock[::40], lane[::40], strict=True):
+                if np.isnan(place).all():
+                    continue
+                where = ALONG[0] + 0.25 * t - offsets
+                belt = np.stack([0 * where + 0.6, where, 0 * where + 20 * mm], axis=-1)
+                on_belt = np.linalg.norm(belt - place, axis=-1).min() < 1e-9
+                n = int((t - clock[0]) / (clock[1] - clock[0]) + 0.5)
+                on_tool = min(np.linalg.norm(tool[k][n] - place) for tool in tools) < 1e-9
+                assert on_belt or on_tool
+                held += on_tool and not on_belt
+        assert held > 5
+
+
+def test_every_object_on_the_drawn_belt_is_shown_and_none_jumps(drawn):
+    (_, clock, _), named = drawn
+    for k, spread in enumerate(SPREADS):
+        offsets = spaced(200, GAP, spread)
+        trips = serve(offsets, 0.25, ALONG, ways_from(), arms=4, pitch=1.0)
+        meets = np.full(200, np.inf)
+        for each in trips:
+            meets[each.objects] = each.meets
+        places = lanes(named, k)
+        for n in (0, 500, 1200):
+            y = ALONG[0] + 0.25 * clock[n] - offsets
+            waiting = y[(y > -0.6) & (y < 3.5) & (clock[n] < meets)]
+            seen = places[:, n][np.isfinite(places[:, n, 0])]
+            for at in waiting:
+                assert abs(seen[:, 1] - at).min() < 1e-9
+        with np.errstate(invalid="ignore"):
+            steps = np.linalg.norm(np.diff(places, axis=1), axis=-1)
+        assert np.nanmax(steps) < 20 * mm  # 4 m/s in 5 ms
+
+
+def test_arms_start_at_their_bins_and_move_without_jumps(drawn):
+    (_, _, motions), named = drawn
+    arm = spbu_arm(*LINKS)
+    assert len(motions) == 4
+    for q in motions:
+        assert abs(np.diff(q, axis=1)).max() <= 2.0 * 0.005 * (1 + 1e-9)  # rad, at 2 rad/s
+        at = arm.fk(q).translation
+        assert np.linalg.norm(at - BIN, axis=-1).min() < 1e-6
+    walls = [face for face in named["faces"] if np.ptp(np.array(face)[:, 2])]
+    assert len(walls) == 16  # four walls of four bins
+    labels = np.array(list(named["points"].values()))
+    assert (labels[:, 0] > WINDOW[:, 0].max() + 0.3).all(), "in front of the belt, over no arm"
+
+
+def test_time_of_a_way_depends_on_the_bin():
+    near, far = ways_from([0.35, -0.45, 0.25]), ways_from([0.15, 0, 0.25])
+    assert near.min() < ways_from().min() < far.min() and near.argmin() < 40 < far.argmin()
+    for wrong in ([0, 0, 0.5], [2, 0, 0], [0.1, 0.2], [np.nan, 0, 0]):
+        with pytest.raises(ValueError, match="bin_place: wanted"):
+            ways_from(wrong)
+
+
+@pytest.mark.parametrize(
+    ("wrong", "says"),
+    [
+        (dict(v=200), "v: wanted a speed from 0.02 to 0.5 m/s, got 200"),
+        (dict(spreads=[0.5]), "spreads: wanted 2 to 6 increasing numbers"),
+        (dict(spreads=[1, 0.5, 0]), "spreads: wanted 2 to 6 increasing numbers"),
+        (dict(spreads=[0, 1.5]), "spreads: wanted 2 to 6 increasing numbers"),
+        (dict(arms=1), "arms: wanted"),
+    ],
+)
+def test_wrong_lines_are_refused(wrong, says):
+    with pytest.raises(ValueError, match=says):
+        conveyor_player(**wrong)

@@ -1,0 +1,119 @@
+"""The exercise and the predictions of lab 14: lines that miss nothing pass, mistakes are named."""
+
+import math
+
+import numpy as np
+import pytest
+
+from robokin.course import book, check, variant
+from robokin.course.questions import filled
+
+LAB = book.lab("conveyor")
+CORNER, BIN = (0.35, -0.45), (0.15, -0.45)
+Y = np.linspace(-0.4, 0.4, 161)
+
+
+def joints(x, y, z):
+    """The joint values of the arm, from the triangle of its links."""
+    l1, l2, rho, d = 0.5, 0.4, math.hypot(x, y), math.hypot(x, y, z)
+    beta = math.acos((l1**2 + d**2 - l2**2) / (2 * l1 * d))
+    q3 = math.asin((l1**2 + l2**2 - d**2) / (2 * l1 * l2))
+    return math.atan2(y, x), math.atan2(rho, z) - beta, q3
+
+
+def ways(place):
+    stand = joints(*place, 0.25)
+    turns = [np.subtract(joints(0.6, y, 0.05), stand) for y in Y]
+    return 15 / 8 * abs(np.array(turns)).max(axis=-1) / 2
+
+
+def missed(v, gap, spread, seed, place, arms):
+    """How many objects so many arms miss; a program without the package."""
+    steps = np.random.default_rng(seed).permutation(np.linspace(-1, 1, 200))
+    left, takes = np.cumsum(gap * (1 + spread * steps)) / v, ways(place)
+    for _ in range(arms):
+        free, rest = 0.0, [*left]
+        while True:
+            at = np.array(rest)[:, None] + (Y - Y[0]) / v
+            in_time = at >= free + takes
+            if not len(rest) or not in_time.any():
+                break
+            first = in_time.argmax(axis=-1)
+            back = np.where(
+                in_time.any(axis=-1), at[range(len(rest)), first] + takes[first], np.inf
+            )
+            pick = int(back.argmin())
+            free = back[pick]
+            del rest[pick]
+        left = np.array(rest)
+        if not len(left):
+            break
+    return len(left)
+
+
+def line(own, place, arms, least=None):
+    bound = math.ceil(2 * ways(place).min() * own["v"] / own["gap"])
+    return {"bin": list(place), "least": bound if least is None else least, "arms": arms}
+
+
+@pytest.mark.parametrize("who", [f"student {k}" for k in range(8)])
+def test_every_belt_needs_another_bin_than_that_of_the_lab(who):
+    own = variant("conveyor", who)
+    numbers = own["v"], own["gap"], own["spread"]
+    seeds, most = own["seeds"], own["most"]
+    assert len(set(seeds)) == 3 and check("conveyor.1", line(own, CORNER, most), who=who).holds
+    assert not any(missed(*numbers, seed, CORNER, most) for seed in seeds)
+    assert any(missed(*numbers, seed, CORNER, most - 1) for seed in seeds)
+    assert any(missed(*numbers, seed, BIN, most) for seed in seeds)
+    assert check("conveyor.1", line(own, BIN, most), who=who).mistake in (
+        "too few arms",
+        "the bound taken for enough",
+    )
+
+
+def test_mistakes_in_lines_are_named():
+    own = variant("conveyor", "Ada")
+    most, right = own["most"], line(own, CORNER, own["most"])
+    assert check("conveyor.1", right, who="Ada").holds
+    load = 2 * ways(CORNER).min() * own["v"] / own["gap"]
+    wrong = {
+        "rounded down": right | {"least": math.floor(load)},
+        "another bound": right | {"least": 30},
+        "more arms than allowed": right | {"arms": most + 1},
+        "too few arms": line(own, BIN, 1),  # more than one would be busy all the time
+        "millimetres for metres": right | {"bin": [350, -450]},
+        "the bin stands elsewhere": right | {"bin": [0.5, -0.45]},
+        "no number of arms for a line": right | {"arms": 0},
+        "another kind or shape": right | {"arms": 2.5},
+    }
+    for name, answer in wrong.items():
+        verdict = check("conveyor.1", answer, who="Ada")
+        assert verdict.mistake == name and verdict.points < 1, (name, verdict)
+    for changed in ({"bin": [0.35]}, {"bin": "corner"}, {"least": "2"}):
+        verdict = check("conveyor.1", right | changed, who="Ada")
+        assert verdict.mistake == "another kind or shape"
+    assert not check("conveyor.1", right | {"arms": ...}, who="Ada").answered
+
+
+def test_numbers_used_in_the_predictions_are_correct():
+    c = 2 * ways(BIN).min()
+    _, options, right = filled(LAB.predictions["p1"])
+    assert float(options[right].text) == math.ceil(c * 0.25 / 0.15) == 3
+    _, options, right = filled(LAB.predictions["p2"])
+    soon = 200 - missed(0.15, 0.15, 0.5, 8, BIN, 1)
+    first, free, done = np.cumsum(0.15 * (1 + 0.5 * np.random.default_rng(8).permutation(
+        np.linspace(-1, 1, 200)))) / 0.15, 0.0, 0  # fmt: skip
+    for arrival in first:  # the objects in the order in which they come
+        at = arrival + (Y - Y[0]) / 0.15
+        in_time = np.flatnonzero(at >= free + ways(BIN))
+        if len(in_time):
+            free, done = at[in_time[0]] + ways(BIN)[in_time[0]], done + 1
+    assert options[right].reason.startswith(f"{soon} against {done}. ") and soon > 2 * done
+    lost = {v: missed(v / 1000, 0.15, 0.5, 8, BIN, 1) for v in (85, 90, 95)}
+    _, options, right = filled(LAB.predictions["p9"])
+    assert lost[85] == lost[90] == 0 < lost[95] and "90 mm/s" in options[right].text
+    facts = LAB.module("predictions")["p9"]()
+    assert (facts["even"], facts["uneven"]) == (120, 90) and facts["rule"] > facts["even"]
+    # the range over other orders of the same gaps
+    assert (facts["least"], facts["greatest"]) == (80, 90)
+    assert facts["first"] == 95

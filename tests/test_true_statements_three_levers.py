@@ -1,0 +1,156 @@
+"""Statements of lab 09 about what its views show, recomputed with circles."""
+
+import math
+
+import numpy as np
+import pytest
+from test_true_statements_b import ARM, cells
+from test_true_statements_b import run as run_cells
+from test_true_statements_c import flat, numbers
+from test_true_statements_g import family, gripper, least_from
+
+from robokin import deg
+
+FIRST, SECOND = complex(2.4, 0.4), complex(-2.0, 1.4)
+STAND, SQUARE = np.array([60, 120, 120]) * deg, np.array([90, 90, 90]) * deg
+
+
+def ends(K):
+    """The range of alpha at K, as far as gamma stays below 180 degrees."""
+    alphas = np.linspace(math.acos((5 - abs(K) ** 2) / 4), math.pi, 4001)
+    kept = [alpha for alpha in alphas if family(K, alpha)[0] <= math.pi + 1e-9]
+    return kept[0], kept[-1]
+
+
+def in_circles(K, alphas):
+    return np.array([family(K, alpha) for alpha in alphas])
+
+
+def test_ring_1_keeps_the_distance_and_the_others_do_not():
+    assert "Ring 1: it turns the whole arm about O." in flat("09", "chain-look")
+    q = np.array([100, 110, 120]) * deg
+    far = [abs(gripper(q + 0.1 * np.eye(3)[k])) - abs(gripper(q)) for k in range(3)]
+    assert abs(far[0]) < 1e-12 and min(map(abs, far[1:])) > 0.01
+
+
+def test_two_levers_are_in_line_at_both_ends_of_the_range():
+    words = flat("09", "range-formula")
+    assert "BA and AK at $\\alpha = 180°$; OB and BA at the lowest $\\alpha$, where" in words
+    K = complex(0.55, 0.35) * 3  # where the view opens
+    low, high = ends(K)
+    assert high == math.pi and family(K, low)[1] == pytest.approx(math.pi, abs=1e-6)
+
+
+def test_s_is_least_where_the_fourth_section_says():
+    words = flat("09", "least-sweep")
+    far, behind = complex(2.8, 0.4), SECOND
+    assert "Far out, at (2.8, 0.4) m, S is lowest where it is level." in words
+    assert "Behind the base, at (−2.0, 1.4) m, it is lowest at an end of the range." in words
+    for K in (far, behind):
+        low, high = ends(K)
+        S, q = least_from(K, SQUARE)
+        assert abs(q - SQUARE).min() > 1 * deg, "an angle keeps its value"
+        from_end = min(q[2] - low, high - q[2])
+        assert (from_end > 5 * deg) if K is far else (from_end < 1e-3)
+        if K is far:
+            near = [abs(family(K, q[2] + step) - SQUARE).sum() - S for step in (-1e-3, 1e-3)]
+            assert max(near) < 1e-5, "not level"
+
+
+def test_only_one_sum_of_the_angles_has_a_minimum_inside_the_range():
+    assert "Of these only $\\alpha + \\beta - \\gamma$ can have a minimum inside the" in flat(
+        "09", "least-exact"
+    )
+    seen = set()
+    for KO in np.linspace(1.02, 2.98, 40):
+        q = in_circles(KO, np.linspace(math.acos((5 - KO**2) / 4), math.pi, 2001)[1:-1])
+        for signs in np.stack(np.meshgrid(*[[-1, 1]] * 3), axis=-1).reshape(-1, 3):
+            total = q @ signs
+            inside = (total[1:-1] < total[:-2] - 1e-12) & (total[1:-1] < total[2:] - 1e-12)
+            if inside.any():
+                seen.add(tuple(signs.tolist()))
+    assert seen == {(-1, 1, 1)}, "in the order gamma, beta, alpha"
+
+
+def test_times_of_the_shortest_and_of_the_least_move_are_as_stated():
+    alpha, longest, time, least, later = numbers(
+        r"cross at \$\\alpha = (\S+)°\$\. The longest turn is (\S+)° there, which takes (\S+) s\. "
+        r"With the least S it is (\S+)°, which takes (\S+) s\.",
+        flat("09", "cost-look"),
+    )
+    alphas = np.linspace(*ends(FIRST), 40001)
+    change = abs(in_circles(FIRST, alphas) - STAND) / deg
+    best = change.max(axis=1).argmin()
+    assert [alphas[best] / deg, change[best].max()] == pytest.approx([alpha, longest], abs=0.05)
+    assert change[best, 1] == pytest.approx(change[best, 2], abs=0.02), "beta and alpha cross"
+    turned = abs(least_from(FIRST, STAND)[1] - STAND).max() / deg
+    assert turned == pytest.approx(least, abs=0.05)
+    assert [change[best].max() / 30, turned / 30] == pytest.approx([time, later], abs=0.005)
+
+
+def test_best_first_posture_costs_what_the_sixth_section_says():
+    words = flat("09", "greed-hand")
+    (greedy,) = numbers(r"the greedy arm turns by (\S+)° in all", words)
+    kink, now, then, total, less, more = numbers(
+        r"keeps its value, (\S+)°\. It costs (\S+)° now and (\S+)° afterwards, (\S+)° in all\. The "
+        r"greedy arm turns (\S+)° less in the first task and (\S+)° more in the second",
+        words,
+    )
+    one, q = least_from(FIRST, STAND)
+    two, _ = least_from(SECOND, q)
+    assert (one + two) / deg == pytest.approx(greedy, abs=0.05)
+    alphas = np.linspace(*ends(FIRST), 241)
+    ways = [(abs(family(FIRST, a) - STAND).sum(), family(FIRST, a)) for a in alphas]
+    sums = np.array([cost + least_from(SECOND, q)[0] for cost, q in ways])
+    assert alphas[sums.argmin()] / deg == pytest.approx(kink, abs=0.4) and kink == 120
+    first = family(FIRST, kink * deg)
+    cost, rest = abs(first - STAND).sum(), least_from(SECOND, first)[0]
+    assert [cost / deg, rest / deg, (cost + rest) / deg] == pytest.approx(
+        [now, then, total], abs=0.05
+    )
+    assert (cost + rest) / deg < sums.min() / deg + 0.01
+    assert [(cost - one) / deg, (two - rest) / deg] == pytest.approx([less, more], abs=0.5)
+
+
+def test_both_arms_of_the_player_differ_for_the_stated_targets():
+    words = flat("09", "greed-look")
+    wanted = numbers(r"For (\d+)° and (\d+)°\. There the planned arm has opened", words)
+    made = run_cells("09", "greed-code", "greed-player")
+    greedy, planned = (q[:, 600] for q in made["player_motions"])  # after 3 s
+    apart = abs(greedy - planned).max(axis=1) / deg > 1
+    assert made["player_angles"][apart].tolist() == wanted
+    opened = (planned - greedy)[apart]
+    assert (opened[:, 1] > 20 * deg).all() and (opened[:, 2] < -20 * deg).all()
+    assert "quantities=" in cells("09")["greed-player"]
+
+
+def test_weights_let_gamma_turn_less_by_the_stated_amount():
+    after, before = numbers(
+        r"turns by (\S+)° instead of (\S+)°\.", flat("09", "deeper-more").replace("$", "")
+    )
+    start, K = np.array([100, 110, 120]) * deg, complex(1.8, 0.6)
+    alphas = np.linspace(*ends(K), 20001)
+    change = abs(in_circles(K, alphas) - start)
+    heavy = np.array([27, 8, 1])  # moments of inertia of the stretched arm: 9, 8/3 and 1/3
+    turns = [change[(change @ w).argmin(), 0] / deg for w in (heavy, np.ones(3))]
+    assert turns == pytest.approx([after, before], abs=0.05)
+
+
+def test_rounds_repeat_themselves_or_drift_as_stated():
+    words = flat("09", "deeper-more")
+    assert "20 random lists: 19 repeated themselves from the seventh round or earlier, and" in words
+    assert "one was still drifting after fourteen rounds." in words
+    rng, settled = np.random.default_rng(0), []
+    while len(settled) < 20:
+        r, phi = rng.uniform(1.2, 2.8, 5), rng.uniform(0, 120, 5) * deg
+        places = np.stack([r * np.cos(phi), r * np.sin(phi)], axis=-1)
+        if np.isnan(ARM.alpha_range(places)[0]).any():
+            continue
+        q, rounds = np.array([90, 120, 120]) * deg, []
+        for _ in range(14):
+            rounds.append([q := ARM.least(K, q)[0] for K in places])
+        change = abs(np.diff(rounds, axis=0)).max(axis=(1, 2)) / deg
+        moving = change > 1e-6
+        assert (moving[1:] <= moving[:-1]).all(), "it moves again after a round without a change"
+        settled.append(1 + int(moving.sum()))
+    assert sorted(settled)[-2:] == [7, 14]
