@@ -41,7 +41,7 @@ from .explorer import (
 from .findings import flags
 from .levers_explorer import levers_explorer
 from .numbers import rounded
-from .page import FactRow, JointPage, TargetPage
+from .page import Control, FactRow, JointPage, TargetPage
 from .things import Zone
 
 __all__ = ["Explorer", "joint_explorer", "target_explorer"]
@@ -160,33 +160,22 @@ def target_explorer(
         return levers_explorer(arm)
     inverted(arm)
     place, turns, q = _showcase(arm) if target is None else _opened(arm, target)
-    name, size = length_unit(extent(arm))
-    most = float(np.ceil(1.05 * extent(arm) / (50 * mm)) * 50 * mm / size)
-    step = 1 if size == mm else 0.001
-    letters = "xyz" if common_plane([arm]) is None else "xy"
-    controls = [control(letter, name, -most, most, step) for letter in letters]
-    controls += [control(turn, "°", -180, 180, 1) for turn in _turns(arm)]
+    _, size = length_unit(extent(arm))
+    controls = _target_controls(arm)
     target = _asked(arm, place, turns)
     rows = arm.ik(target)
     usable = np.all(within(arm, rows), axis=-1)
     among = usable if usable.any() else np.isfinite(rows).all(axis=-1)
     row = int(np.where(among, abs(rows - q).sum(axis=-1), np.inf).argmin())
+    given = [*place[: len(controls) - len(turns)] / size, *np.array(turns) / deg]
     values = ", ".join(
         f"{c['name']} {number(x, 0 if c['unit'] != 'm' else 3)}"
-        for c, x in zip(
-            controls, [*place[: len(letters)] / size, *np.array(turns) / deg], strict=True
-        )
+        for c, x in zip(controls, given, strict=True)
     )
-    count = int(usable.sum())
-    found = "noneUsable" if not count else "oneUsable" if count == 1 else "someUsable"
-    says = WORDS[found].format(count=count, all=len(rows), why=explain(arm, target, row))
     watched = [0, 1] if around else []
-    if around and usable[row]:
-        says += f" {_room(arm, rows[row], watched)}"
+    says = _found(arm, target, rows, row, watched)
     summary = WORDS["scene"].format(name=arm.name, values=values, says=says)
     shown = rows[np.isfinite(rows).all(axis=-1)]
-    turning = np.flatnonzero(~arm.prismatic)
-    whole = len(turning) == len(arm.links)
     page = arm_page(
         arm,
         f"{arm.name}: move the target",
@@ -208,15 +197,8 @@ def target_explorer(
         "turns": list(map(float, turns)),
         "target": pose_data(target),
         "branches": [flags(arm, k) for k in range(len(rows))],
-        "heads": [
-            "branch",
-            "verdict",
-            *(f"q{i + 1} {unit['name']}" for i, unit in enumerate(units(arm))),
-            "distance from singularity",
-            # only angles are counted, since a stroke is the same in every row
-            "travel, °" if whole else f"travel of {', '.join(f'q{j + 1}' for j in turning)}, °",
-        ],
-        "turning": turning.tolist(),
+        "heads": _heads(arm),
+        "turning": np.flatnonzero(~arm.prismatic).tolist(),
         "watched": watched,
         "task": None,
     }
@@ -321,6 +303,40 @@ def _wrist_turns(arm: Arm, q: Floats) -> Floats:
 
 
 # --- Targets --------------------------------------------------------------------------------------
+
+
+def _target_controls(arm: Arm) -> list[Control]:
+    """The sliders of a target: its position, and its rotations."""
+    name, size = length_unit(extent(arm))
+    most = float(np.ceil(1.05 * extent(arm) / (50 * mm)) * 50 * mm / size)
+    letters = "xyz" if common_plane([arm]) is None else "xy"
+    controls = [control(x, name, -most, most, 1 if size == mm else 0.001) for x in letters]
+    return controls + [control(turn, "°", -180, 180, 1) for turn in _turns(arm)]
+
+
+def _heads(arm: Arm) -> list[str]:
+    """The headings of the table of branches."""
+    turning = np.flatnonzero(~arm.prismatic)
+    joints = ", ".join(f"q{j + 1}" for j in turning)
+    return [
+        "branch",
+        "verdict",
+        *(f"q{i + 1} {unit['name']}" for i, unit in enumerate(units(arm))),
+        "distance from singularity",
+        # only angles are counted, since a stroke is the same in every row
+        "travel, °" if len(turning) == len(arm.links) else f"travel of {joints}, °",
+    ]
+
+
+def _found(arm: ClosedFormArm, target: Pose, rows: Floats, row: int, watched: list[int]) -> str:
+    """How many rows of `ik` are usable, what can be said about one of them, and how far its watched
+    joints are from their limits.
+    """
+    usable = np.all(within(arm, rows), axis=-1)
+    count = int(usable.sum())
+    name = {0: "noneUsable", 1: "oneUsable"}.get(count, "someUsable")
+    text = WORDS[name].format(count=count, all=len(rows), why=explain(arm, target, row))
+    return f"{text} {_room(arm, rows[row], watched)}" if watched and usable[row] else text
 
 
 def _turns(arm: Arm) -> tuple[str, ...]:
