@@ -82,7 +82,7 @@ WORDS: Mapping[str, str] = {
     "near": "The path passes via at {distance}.",
     "missingSamples": "No solution in {none} of {all} samples.",
     "pastSamples": "q{joint} is past its limit in {past} of {all} samples.",
-    "fastSamples": "q{joint} exceeds its speed limit in {past} of {all} samples.",
+    "fastSamples": "q{joint} is past its speed limit in {past} of {all} samples.",
     "jump": "The speed jumps at {time} s: there is no acceleration there.",
 }
 
