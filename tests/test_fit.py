@@ -14,6 +14,10 @@ from fitting import SCREEN, sizes, walked
 
 LABS = [path.stem for path in sorted(NOTEBOOKS.glob("*.ipynb"))]
 NEXT = "() => new Promise(done => requestAnimationFrame(() => requestAnimationFrame(done)))"
+# The sentences of every visible player that do not fit into their box
+CUT = """() => [...document.querySelectorAll(".rk-player .rk-says")]
+  .filter(box => box.clientHeight && box.scrollHeight > box.clientHeight + 1)
+  .map(box => box.innerText)"""
 
 
 def opened(browser, path, width, theme):
@@ -36,6 +40,8 @@ def test_views_fit_and_their_text_is_readable_on_a_laptop_and_on_a_phone(browser
         assert faults(page) == [], f"{width} px, {theme}"
         written = page.evaluate("canvasWords().flatMap(each => each.words).length")
         assert written > 20, "no text was recorded"
+        hidden = page.evaluate(CUT)
+        assert not hidden, f"{width} px: sentences of a player are cut: {hidden}"
         found = sizes(page)
         assert found, "no view is open"
         for view in found if width == 1036 else ():

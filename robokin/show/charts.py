@@ -1,6 +1,6 @@
 """Curves and bars in a plot, in the style of all our figures.
 
-fig = figure("The follower is late all the way.")
+fig = figure("The follower lags throughout.")
 curves(fig.subplots(), t, {"leader": one, "follower": two}, xlabel="t, s", ylabel="q1, °")
 fig
 """

@@ -83,7 +83,7 @@ WORDS: Mapping[str, str] = {
     "toGoal": "to goal",
     "missingSamples": "No solution in {none} of {all} samples.",
     "pastSamples": "q{joint} is past its limit in {past} of {all} samples.",
-    "fastSamples": "q{joint} exceeds its speed limit in {past} of {all} samples.",
+    "fastSamples": "q{joint} is past its speed limit in {past} of {all} samples.",
     "jump": "The speed jumps at {time} s: there is no acceleration there.",
 }
 

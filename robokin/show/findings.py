@@ -148,17 +148,6 @@ def flaws(track: Recording, kept: Ints, units: Floats, length: str) -> Flaws:
             j = int((abs(jump.by) / units).argmax())  # the joint with the largest jump
             words = what.format(j=j + 1, by=amount(jump.by[j], j, per))
             marks.setdefault(jump.motion[0], []).append([tidy(jump.time, 6), words])
-    for c, marked in jumps.items():
-        times = ", ".join(f"{when:.2f}" for when, _ in marked[:3])
-        more = f" and {len(marked) - 3} more times" if len(marked) > 3 else ""
-        notes.setdefault(c, []).append(
-            f"The speed jumps at {times} s{more}: there is no acceleration there, and a "
-            "finite-difference value would only reflect the time step."
-        )
-    for c, marked in leaps.items():
-        first = "; ".join(f"{text} at {when:.2f} s" for when, text in marked[:3])
-        more = f"; and {len(marked) - 3} more" if len(marked) > 3 else ""
-        notes.setdefault(c, []).append(f"Jumps of position: {first}{more}.")
     for c in range(len(track)):
         for j, excess in enumerate(track.excess[c].T):
             if (excess > 0).any():
@@ -169,13 +158,23 @@ def flaws(track: Recording, kept: Ints, units: Floats, length: str) -> Flaws:
         for j, excess in enumerate(track.speed_excess[c].T):
             if (excess > 0).any():
                 notes.setdefault(c, []).append(
-                    f"q{j + 1} exceeds its speed limit in {(excess > 0).sum()} of {count} samples, "
+                    f"q{j + 1} is past its speed limit in {(excess > 0).sum()} of {count} samples, "
                     f"{spells(track.t, excess > 0)}."
                 )
         if track.missing[c].any():
             notes.setdefault(c, []).append(
                 f"No solution in {track.missing[c].sum()} of {count} samples."
             )
+    for c, marked in jumps.items():
+        times = ", ".join(f"{when:.2f}" for when, _ in marked[:3])
+        more = f" and {len(marked) - 3} more times" if len(marked) > 3 else ""
+        notes.setdefault(c, []).append(
+            f"The speed jumps at {times} s{more}, so there is no acceleration there."
+        )
+    for c, marked in leaps.items():
+        first = "; ".join(f"{text} at {when:.2f} s" for when, text in marked[:3])
+        more = f"; and {len(marked) - 3} more" if len(marked) > 3 else ""
+        notes.setdefault(c, []).append(f"Jumps of position: {first}{more}.")
 
     def told(flaws: dict[int, Any]) -> dict[str, Any]:
         return {str(c): value for c, value in sorted(flaws.items())}

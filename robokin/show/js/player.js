@@ -205,10 +205,10 @@ function tell(parts, data, {arms, motion}, value) {
     arm.near ? [`${whose(arm)}The path passes ${arm.near.text} from via.`] : [],
   );
   const notes = data.arms.flatMap(arm =>
-    (arm.notes[motion] || []).map(text => element("li", {}, whose(arm) + text)),
+    (arm.notes[motion] || []).map(text => element("li", {}, `${whose(arm)}${text} `)),
   );
   parts.says.replaceChildren(
-    ...near.map(text => element("div", {}, text)),
+    ...near.map(text => element("div", {}, `${text} `)),
     element("ul", {class: "rk-notes rk-alarm"}, ...notes),
   );
   parts.table.replaceChildren(numberTable(data, whose, motion));
