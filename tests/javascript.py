@@ -21,7 +21,7 @@ from typing import Any, Literal, Union, get_args, get_origin, get_type_hints, is
 
 from conftest import NODE, ROOT
 
-from robokin.show import motors, numbers, page, things, twin
+from robokin.show import explorer_page, motors, numbers, page, things, twin
 
 HERE = ROOT / "tests" / "js"
 PROGRAMS = {
@@ -87,6 +87,7 @@ def page_types():
             numbers,
             *[sys.modules[table.__module__] for table in KINDS],
             page,
+            explorer_page,
             twin,
             motors,
         )
@@ -95,14 +96,19 @@ def page_types():
     }
     parts = [
         "// Written by `python tests/javascript.py types` from the TypedDicts of page.py, twin.py,",
-        "// numbers.py, motors.py and things/, which describe every key. Edit those files instead.",
+        "// explorer_page.py, numbers.py, motors.py and things/, which describe every key. Edit",
+        "// those files instead.",
         "",
         "/** T in which these optional keys are present. */",
         "export type With<T, K extends keyof T> = T & Required<Pick<T, K>>;",
     ]
     for name, kind in ALIASES.items():
         line = f"export type {name} = {_typed(kind, alias=False)};"
-        parts += ["", line if len(line) <= 100 else line.replace(" = ", " =\n  ")]
+        if len(line) > 100:
+            line = line.replace(" = ", " =\n  ")
+        if len(line.splitlines()[-1]) > 100:
+            line = line.replace(" | ", "\n  | ").replace(" =\n  ", " =\n  | ")
+        parts += ["", line]
     for name, table in tables.items():
         parts += ["", f"export interface {name} {{"]
         for key, kind in get_type_hints(table).items():
@@ -126,7 +132,11 @@ def _install(folder):
 
 
 PLAIN = {str: "string", float: "number", int: "number", bool: "boolean", Any: "unknown"}
-ALIASES = {"PageExplorer": page.PageExplorer, "Scale": numbers.Scale, "Inverse": twin.Inverse}
+ALIASES = {
+    "PageExplorer": explorer_page.PageExplorer,
+    "Scale": numbers.Scale,
+    "Inverse": twin.Inverse,
+}
 ALIASES |= {"PageThing": things.PageThing}
 KINDS = get_args(things.PageThing)
 PLAIN |= {type(None): "null"}

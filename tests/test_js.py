@@ -16,7 +16,7 @@ from conftest import NODE, ROOT
 from javascript import HERE, NoNetwork, page_types, tool, tools, written
 
 from robokin import IRB140, SCARA, spbu_arm, three_lever, two_link
-from robokin.show import page, things, twin
+from robokin.show import explorer_page, page, things, twin
 from robokin.show.things import PageThing
 from robokin.show.things.thing import PageReading, PageWay
 
@@ -234,8 +234,8 @@ def test_all_kinds_of_things_are_listed():
 
 def test_explorer_pages_have_no_optional_keys():
     """The keys that `Live` adds are an exception."""
-    for table in get_args(page.PageExplorer):
-        live = page.LivePage.__optional_keys__ & {*table.__annotations__}
+    for table in get_args(explorer_page.PageExplorer):
+        live = explorer_page.LivePage.__optional_keys__ & {*table.__annotations__}
         assert table.__optional_keys__ == live, table.__name__
 
 

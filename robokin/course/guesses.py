@@ -175,7 +175,7 @@ def _beside(path: Path, slug: str) -> list[str]:
                 found.append((name, ", ".join(f"{number} {c}" for number, c in mine.items())))
     return [
         f"No guesses are saved for {path.name}, but some are for {name}, in the same folder. If "
-        "they are yours, hand them in with the last cell of Your turn: "
+        "they are yours, hand them in with the report cell of the lab: "
         f'report(who, guesses="{line}")'
         for name, line in found
         if len(found) == 1

@@ -24,10 +24,11 @@ from typing import (
 
 from markupsafe import Markup
 
+from ..show.explorer_page import PageExplorer
 from ..show.markup import STILL as IN_JUPYTER
 from ..show.markup import figure_image, inert, output, still_image
 from ..show.motors import PageMotors
-from ..show.page import Page, PageCurves, PageExplorer
+from ..show.page import Page, PageCurves
 from .book import find
 from .exercises import Verdict
 from .harmless import png

@@ -13,8 +13,9 @@ from ..transform import Transform
 from ..units import deg, length_unit, mm, wrapped
 from .camera import STRAIGHT, extent
 from .explorer import WORDS, Explorer, arm_page, control, number
+from .explorer_page import ElbowPage, PageUnit
 from .numbers import rounded, series_step, tidy
-from .page import ElbowPage, PageScene, PageUnit
+from .page import PageScene
 from .palette import FAINT
 from .sketch import Sketch
 

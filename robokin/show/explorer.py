@@ -15,9 +15,10 @@ from ..transform import Transform
 from ..units import deg, length_unit, mm
 from . import plots
 from .camera import VIEW, arm_points, common_plane, extent, scene_data
+from .explorer_page import ArmPage, Control, PagePose, PageUnit
 from .numbers import tidy
 from .output import Output
-from .page import ArmPage, Control, PagePose, PageScene, PageUnit
+from .page import PageScene
 from .scene import Scene
 from .things import Target, Thing, Zone
 from .twin import KINDS, arm_data

@@ -38,10 +38,10 @@ from .explorer import (
     sizes,
     units,
 )
+from .explorer_page import Control, FactRow, JointPage, TargetPage
 from .findings import flags
 from .levers_explorer import levers_explorer
 from .numbers import rounded
-from .page import Control, FactRow, JointPage, TargetPage
 from .things import Zone
 
 __all__ = ["Explorer", "joint_explorer", "target_explorer"]

@@ -13,7 +13,7 @@ from . import plots
 from .camera import extent
 from .charts import curves
 from .explorer import TAKE, Explorer, arm_page, control, imports, number, picture
-from .page import LeversPage
+from .explorer_page import LeversPage
 from .palette import DASHES, INK
 from .scene import Scene
 

@@ -33,8 +33,8 @@ from .explorer import (
     sizes,
     units,
 )
+from .explorer_page import Control, Corner, Law, MotionPage
 from .findings import flags
-from .page import Control, Corner, Law, MotionPage
 from .palette import DASHES
 from .player import still_picture
 from .things import Target

@@ -15,7 +15,7 @@ from .._validate import instance
 from ..jobs.steppers import FINE, LIMIT, NEARLY, ROTORS, SETTLED, SLOWEST, Stepper, phases
 from . import plots
 from .explorer import Explorer
-from .page import Control
+from .explorer_page import Control
 from .palette import FAINT, INK, JOINT_STYLES, PANEL_GRID, REMARK, SOFT
 
 PULSES = 48  # number of pulses in a run

@@ -22,8 +22,8 @@ from ..units import deg, in_words, length_unit, mm
 from . import plots
 from .camera import VIEW, extent, project, scene_data
 from .explorer import control
+from .explorer_page import PlanPage
 from .live import Answer, Live, Question
-from .page import PlanPage
 from .palette import ALARM, INK, JOINT_STYLES, PALE, SOFT
 from .things import Mark
 from .twin import arm_data

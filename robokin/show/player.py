@@ -25,15 +25,7 @@ from .checks import plain, yes
 from .film import Film
 from .numbers import NOTHING, decimals, packed, rounded, scale, thin, tidy
 from .output import Output
-from .page import (
-    Page,
-    PageArm,
-    PageScene,
-    Slider,
-    Switch,
-    Unit,
-    Watch,
-)
+from .page import Page, PageArm, PageScene, Slider, Switch, Unit, Watch
 from .page_panels import FINEST, joint_panel, quantity_panel
 from .palette import DASHES, INK
 from .saving import write

@@ -11,8 +11,9 @@ from .camera import SPECK, VIEW
 from .checks import HORIZON
 from .explorer import WORDS, Explorer, control
 from .explorer import number as told
+from .explorer_page import RotationPage
 from .numbers import rounded
-from .page import PageScene, RotationPage
+from .page import PageScene
 from .palette import INK, REMARK, SECOND, SOFT, TRACE
 from .scene import Scene
 

@@ -22,8 +22,8 @@ from .explorer import (
     picture,
     pose_data,
 )
+from .explorer_page import SingularityPage
 from .numbers import rounded
-from .page import SingularityPage
 
 HALF = 100 * mm  # half the length of the line
 SPEED = 100 * mm  # per second: the speed of the tool on the line

@@ -29,9 +29,10 @@ from ..units import deg, length_unit
 from . import plots
 from .camera import best_view, extent, scene_data
 from .explorer import control
+from .explorer_page import TourPage
 from .live import Answer, Live, Question
 from .numbers import rounded
-from .page import PageScene, TourPage
+from .page import PageScene
 from .palette import INK, JOINT_STYLES
 from .scene import Scene
 from .things import Mark

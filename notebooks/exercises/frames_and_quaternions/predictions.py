@@ -52,8 +52,8 @@ def p2() -> dict[str, Any]:
         "cosine": SHIFT * (1 - np.cos(TURN * deg)),
     }
     facts["metres"] = facts["chord"] * mm
-    names = "the chord", "no distance", "the arc", "both shifts"
-    names += "the height", "along x alone", "in metres"
+    names = ["the chord", "no distance", "the arc", "both shifts"]
+    names += ["the height", "along x alone", "in metres"]
     guesses = dict(zip(names, facts.values(), strict=True))
     right = nearest(guesses, np.linalg.norm((one - two)[:3, 3]))
     return facts | {"turn": TURN, "shift": SHIFT, "right": right}

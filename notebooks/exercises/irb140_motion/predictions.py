@@ -84,6 +84,7 @@ def per_progress() -> Floats:
     """What the line of section 2 asks of each joint: its speed over its speed limit, if the
     progress grows by 1 per second.
     """
+    assert IRB140.speed_limits is not None
     asked: Floats = abs(differentiate(along(), S)) / IRB140.speed_limits
     return asked
 

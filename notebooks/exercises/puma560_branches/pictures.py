@@ -70,7 +70,7 @@ def p9_view() -> Sketch:
         width=6,
         height=4,
     )
-    sketch.levers([(0, 0), elbow, wrist], ["shoulder", "elbow", "wrist centre"])
+    sketch.levers([np.zeros(2), elbow, wrist], ["shoulder", "elbow", "wrist centre"])
     sketch.length((0, 0), wrist)
     return sketch
 

@@ -1,6 +1,6 @@
 // The explorer of an elbow: the reader drags the point that an arm carries, in the plane in which
 // the arm bends, and the triangle of upper arm, forearm and the line to the point follows. All text
-// and the arm data come from Python (page.py: ElbowPage).
+// and the arm data come from Python (explorer_page.py: ElbowPage).
 
 import {excess, representative, within} from "./branches.js";
 import {fill, inWords} from "./blanks.js";

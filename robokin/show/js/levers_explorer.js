@@ -1,6 +1,6 @@
 // The explorer of an arm that reaches a point with a family of postures. The reader drags the
 // point, chooses the free angle on the curve of its cost or at the joint, and sets the lengths of
-// levers with sliders. All text and the arm data come from Python (page.py: LeversPage).
+// levers with sliders. All text and the arm data come from Python (explorer_page.py: LeversPage).
 
 import {alpha_range, family, KEPT, kinks, least, withLevers} from "./levers.js";
 import {drawCosts, total} from "./levers_curve.js";

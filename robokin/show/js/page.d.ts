@@ -1,5 +1,6 @@
 // Written by `python tests/javascript.py types` from the TypedDicts of page.py, twin.py,
-// numbers.py, motors.py and things/, which describe every key. Edit those files instead.
+// explorer_page.py, numbers.py, motors.py and things/, which describe every key. Edit
+// those files instead.
 
 /** T in which these optional keys are present. */
 export type With<T, K extends keyof T> = T & Required<Pick<T, K>>;
@@ -71,24 +72,6 @@ export interface PageTarget {
   kind: "target";
   name: string;
   pose: number[] | PageWay;
-}
-
-export interface ArmData {
-  name: string;
-  target: string | null;
-  reach: number;
-  chain: PageLink[];
-  limits: number[][];
-  limits_in_words: string[][];
-  prismatic: boolean[];
-  units: JointUnit[];
-  speed_limits: number[] | null;
-  movable: number[];
-  geometry: Inverse;
-  tolerances: Tolerances;
-  branches?: number[][];
-  carried?: string;
-  sentences?: Record<string, string>;
 }
 
 export interface PageLink {
@@ -230,6 +213,44 @@ export interface PageCurves {
   gaps: number[];
   panels: CurvePanel[];
   notes: [string, boolean][];
+}
+
+export interface PageAnswer {
+  name?: string;
+  text: string;
+  reason: string;
+  confusion: string | null;
+  second: string;
+  value?: number;
+}
+
+export interface PageQuestion {
+  name: string;
+  title: string;
+  question: string;
+  options: PageAnswer[];
+  right: number;
+  unit: string | null;
+  within: number;
+  choice: string | null;
+}
+
+export interface ArmData {
+  name: string;
+  target: string | null;
+  reach: number;
+  chain: PageLink[];
+  limits: number[][];
+  limits_in_words: string[][];
+  prismatic: boolean[];
+  units: JointUnit[];
+  speed_limits: number[] | null;
+  movable: number[];
+  geometry: Inverse;
+  tolerances: Tolerances;
+  branches?: number[][];
+  carried?: string;
+  sentences?: Record<string, string>;
 }
 
 export interface Control {
@@ -506,26 +527,6 @@ export interface TourPage {
   tours: string[];
   most: number;
   spare: number[][];
-}
-
-export interface PageAnswer {
-  name?: string;
-  text: string;
-  reason: string;
-  confusion: string | null;
-  second: string;
-  value?: number;
-}
-
-export interface PageQuestion {
-  name: string;
-  title: string;
-  question: string;
-  options: PageAnswer[];
-  right: number;
-  unit: string | null;
-  within: number;
-  choice: string | null;
 }
 
 export interface ElbowData {

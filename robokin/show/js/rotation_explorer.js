@@ -1,5 +1,5 @@
-// The rotation explorer: the reader rotates a vector v about an axis n, and sees the product q v and
-// the rotated vector q v q*. All text comes from Python (page.py: RotationPage).
+// The rotation explorer: the reader rotates a vector v about an axis n, and sees the product q v
+// and the rotated vector q v q*. All text comes from Python (explorer_page.py: RotationPage).
 
 import {fill} from "./blanks.js";
 import {number} from "./canvas.js";
@@ -33,8 +33,8 @@ const TINY = 1e-9; // radians: closer angles are equal
 export const explore = (id, data) => waiting(id).forEach(root => rotationExplorer(root, data));
 
 /**
- * The vector v, its foot on the axis, the vector across the axis to v and that after a quarter turn;
- * q, q v and q v q* as [w, x, y, z].
+ * The vector v, its foot on the axis, the vector across the axis to v and that after a quarter
+ * turn; q, q v and q v q* as [w, x, y, z].
  * @param {Pick<RotationPage, "axis" | "across" | "length">} data
  * @param {number} angle  of the rotation
  * @param {number} tilt  from the axis to v

@@ -1,6 +1,6 @@
-// The singularity explorer: the reader pulls the tool along a straight line past a wrist singularity
-// and sees how fast joint 4 has to turn there. All text and the arm data come from Python (page.py:
-// SingularityPage).
+// The singularity explorer: the reader pulls the tool along a straight line past a wrist
+// singularity and sees how fast joint 4 has to turn there. All text and the arm data come from
+// Python (explorer_page.py: SingularityPage).
 
 import {jointSpeeds} from "./dexterity.js";
 import {TURN, plus} from "./kinematics.js";
@@ -28,7 +28,8 @@ import {degrees} from "./turns.js";
 /** @import {Explored, Stage} from "./stage.js" */
 
 /** @typedef {SingularityPage & {arm: ClosedFormArm}} SingularityExplorer */
-/** @typedef {Pick<SingularityExplorer, "arm" | "pose" | "along" | "beside" | "row" | "speed">} Line */
+/** @typedef {"arm" | "pose" | "along" | "beside" | "row" | "speed"} LineKey */
+/** @typedef {Pick<SingularityExplorer, LineKey>} Line */
 /** @typedef {[place: number, miss: number]} State  in mm: along the line, and beside the pose */
 /** @typedef {(k: number, value: number) => void} Change  changes the place (0) or the miss (1) */
 /**
@@ -37,8 +38,8 @@ import {degrees} from "./turns.js";
  * @typedef {{q: number[], speed: number}} Passing
  */
 /**
- * The curve of joint 4's speed in turns/s for one miss, its greatest value, and the arm `at` a place
- * in mm.
+ * The curve of joint 4's speed in turns/s for one miss, its greatest value, and the arm `at` a
+ * place in mm.
  * @typedef {Curves & {most: number, at: (place: number) => Passing}} Curve
  */
 

@@ -1,5 +1,5 @@
 // The target explorer: a target to drag, and all branches that reach it. All text and the arm data
-// come from Python (page.py: TargetPage).
+// come from Python (explorer_page.py: TargetPage).
 
 import {distance_from_singularity} from "./dexterity.js";
 import {matrix, wrapped} from "./kinematics.js";
