@@ -67,7 +67,8 @@ def law(case: Case, yours: Floats, right: Floats) -> str | None:
             f"the camera should stay at ({at}) mm; with your joints it is at ({is_at}) mm"
         ).translate(MINUS)
     if not abs(wrapped(yours[1] - right[1])) <= 1e-6:
-        return f"joint 2 should be at {shown(float(wrapped(right[1])))}, with the elbow on the other side"
+        second = shown(float(wrapped(right[1])))
+        return f"joint 2 should be at {second}, with the elbow on the other side"
     return None
 
 
