@@ -992,6 +992,19 @@ def test_dragging_moves_only_the_held_pose(opened, arm):
         follows_the_pointer(shown, f"via {c}", {f"via {c}"}, "Shift+ArrowRight")
 
 
+@pytest.mark.parametrize("end", list(itertools.product([0, 1], repeat=3)), ids=str)
+def test_handles_in_a_corner_of_the_scene_do_not_overlap(opened, end):
+    shown = opened(motion_explorer(IRB140, START, VIA, GOAL), IRB140)
+    for letter, k in zip("xyz", end, strict=True):
+        spec = next(each for each in shown.data["controls"] if each["name"] == f"via {letter}")
+        shown.type(f"via {letter}", spec["high" if k else "low"])
+    seen = shown.look().handles
+    assert len(seen) == 6
+    at = np.array([handle["at"] for handle in seen.values()])
+    between = np.linalg.norm(at[:, None] - at, axis=-1)[np.triu_indices(6, 1)]
+    assert between.min() > 24
+
+
 CANVASES = {
     "motion": lambda: (motion_explorer(IRB140, START, VIA, GOAL), IRB140),
     "levers": lambda: (target_explorer(LEVERS), LEVERS),

@@ -403,7 +403,7 @@ class Scene:
                 if round(value / step) % every == 0:
                     words = number(value / unit) if abs(value) > step / 2 else f"{'xyz'[axis]} = 0"
                     x, y = self.project(point)
-                    self.ax.text(x, y, f" {words} ", fontsize=8, color=SCALE, ha=ha, va=va)
+                    self.ax.text(x, y, f" {words} ", fontsize=9, color=SCALE, ha=ha, va=va)
 
     def _at(self, x: float, y: float) -> Floats:
         """Return the point (3,) of the floor with these two coordinates."""

@@ -40,7 +40,7 @@ WORDS_HERE = {
     "near": "The tool is {distance} mm from the singular pose; axes 4 and 6 enclose {bend}°.",
     "isFree": "Singular: axes 4 and 6 are in one line. Joint 4 is free: joint 6 can take back its "
     "rotation, so joint 4 need not turn at all.",
-    "axis": "joint 4, turns/s, with a miss of {miss} mm",
+    "axis": "turns/s, with a miss of {miss} mm",
     "scene": "{name} with its tool at {place} mm on a line that passes {miss} mm beside the "
     "singular pose. {says}",
     "curve": "The speed of joint 4 over the place on the line, with a miss of {miss} mm. It "

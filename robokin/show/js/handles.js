@@ -193,14 +193,24 @@ const STEPS = {ArrowLeft: [-1, 0], ArrowRight: [1, 0], ArrowUp: [0, 1], ArrowDow
  * @returns {Pixel}
  */
 function apart(place, taken, room, inside) {
+  /** @type {(place: Pixel) => Pixel | undefined} */
+  const nearTo = ([x, y]) =>
+    taken.find(([a, b]) => (x - a) ** 2 + (y - b) ** 2 < 0.98 * room * room);
   let [x, y] = inside(place);
   for (let i = 0; i < 8; i++) {
-    const near = taken.find(([a, b]) => (x - a) ** 2 + (y - b) ** 2 < 0.98 * room * room);
-    if (!near) break;
+    const near = nearTo([x, y]);
+    if (!near) return [x, y];
     const [dx, dy] = [x - near[0] || 1, y - near[1] || i - 3],
       length = Math.sqrt(dx * dx + dy * dy);
     [x, y] = inside([near[0] + (room * dx) / length, near[1] + (room * dy) / length]);
   }
+  // in a corner of the scene, the edges push the handle back: it takes the nearest free place
+  for (let far = room; far < 5 * room; far += room / 2)
+    for (let k = 0; k < 12; k++) {
+      const angle = (k * Math.PI) / 6;
+      const free = inside([x + far * Math.cos(angle), y + far * Math.sin(angle)]);
+      if (!nearTo(free)) return free;
+    }
   return [x, y];
 }
 
