@@ -143,5 +143,8 @@ def test_report_shows_the_figures_of_the_notebook_without_injected_code(figures)
     assert "min-width:900px" in again(older, "nonce") and "robokin-figure" in again(older, "nonce")
     evil = html.replace("<style>", "<style>@import url(https://example.org/x.css);")
     assert again(evil, "nonce") == html
+    inside = made(figures["postures"])
+    assert "robokin-spatial" in inside and again(inside, "nonce") == inside
+    assert "robokin-spatial" not in html
     assert again(html.replace('style="', 'style="position:fixed;'), "nonce") == html
     assert again(html + "<script>alert(1)</script>", "nonce") is None

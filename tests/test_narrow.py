@@ -12,9 +12,11 @@ from nbformat.v4 import new_code_cell, new_markdown_cell, new_notebook, new_outp
 from PIL import Image
 from test_browser import NEXT_FRAME
 
+from robokin import IRB140
 from robokin.course import site as making
 from robokin.course.export import View, export
 from robokin.course.predictions import ASLEEP
+from robokin.show import figure, plot_postures
 from robokin.show.markup import STILL
 
 LABS = [path.stem for path in sorted(NOTEBOOKS.glob("*.ipynb"))]
@@ -181,6 +183,26 @@ def test_box_has_a_shadow_exactly_where_its_content_is_cut_off(made, opened, box
         paper = shown.getpixel((shown.width // 2, middle))
         shaded = [abs(shown.getpixel((x, middle)) - paper) > 40 for x in (1, shown.width - 2)]
         assert shaded == [left, right], f"scrolled by {at} px"
+
+
+def test_phone_shows_the_middle_of_a_spatial_figure_and_the_left_of_a_plot(tmp_path, opened):
+    space = plot_postures(IRB140, [[0, 0, 0, 0, 0, 0], [1, 0.5, 0.2, 0, 1, 0]])
+    plot = figure("A line that rises.", width=9, height=3)
+    plot.subplots().plot([0, 1], [0, 1])
+    outputs = [
+        new_output("display_data", {"text/html": each._repr_mimebundle_()["text/html"]})
+        for each in (space, plot)
+    ]
+    path = tmp_path / "two.ipynb"
+    nbformat.write(notebook(*[new_code_cell("fig", outputs=[each]) for each in outputs]), path)
+    export(path, path.with_suffix(".html"))
+    page = opened(path.with_suffix(".html").as_uri(), PHONE)
+    boxes = page.locator(".robokin-figure").evaluate_all(
+        "all => all.map(e => [e.scrollLeft, e.scrollWidth - e.clientWidth])"
+    )
+    (middle, room), (left, other) = boxes
+    assert min(room, other) > 100
+    assert middle == pytest.approx(room / 2, abs=1) and left == 0
 
 
 def test_printed_text_keeps_its_line_breaks_on_a_phone(made, opened):

@@ -49,7 +49,8 @@ KINDS: dict[str, Any] = {
 CALL = re.compile(r'^\$(\w+\.\w+)\("[0-9a-f]{12}", (.*)\);$', re.M)
 STILL = re.compile(r'src="data:image/png;base64,([A-Za-z0-9+/]+={0,2})"')
 FIGURE = re.compile(  # older notebooks store only the image
-    r'(?:<div class="robokin-figure">)?<img alt="([^"<>]*)" width="(\d{1,5})" height="(\d{1,5})" '
+    r'(?:<div class="robokin-figure( robokin-spatial)?">)?'
+    r'<img alt="([^"<>]*)" width="(\d{1,5})" height="(\d{1,5})" '
     r'(?:style="[^"<>]*min-width:(\d{1,5})px[^"<>]*" )?'
     r'src="data:image/png;base64,([A-Za-z0-9+/]+={0,2})">(?:</div>\s*<style>[^<]*</style>)?\s*'
 )
@@ -155,13 +156,16 @@ def _ordinary(table: dict[str, Any]) -> dict[str, Any]:
     return table
 
 
-def _figure(alt: str, width: str, height: str, least: str | None, data: str) -> Markup:
+def _figure(
+    spatial: str | None, alt: str, width: str, height: str, least: str | None, data: str
+) -> Markup:
     try:
         image = png(data)
     except ValueError:
         return LEFT_OUT
     alt = visible(html.unescape(alt))
-    return Markup(figure_image(image, alt, int(width), int(height), int(least or width)))
+    sizes = int(width), int(height), int(least or width)
+    return Markup(figure_image(image, alt, *sizes, spatial=spatial is not None))
 
 
 def _verdict(name: str, word: str, lines: str) -> Markup:

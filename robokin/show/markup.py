@@ -37,13 +37,17 @@ def still_image(png: bytes, alt: str) -> str:
     )
 
 
-def figure_image(png: bytes, alt: str, width: int, height: int, least: int) -> str:
+def figure_image(
+    png: bytes, alt: str, width: int, height: int, least: int, spatial: bool = False
+) -> str:
     """Return a figure of `width` x `height` pixels that follows the theme and the width of the
-    page. It is never narrower than `least` pixels; on a narrower page, it scrolls.
+    page. It is never narrower than `least` pixels; on a narrower page, it scrolls. What a `spatial`
+    view shows is in its middle, so an exported page first shows its middle.
     """
     image = base64.b64encode(png).decode()
+    kind = "robokin-figure robokin-spatial" if spatial else "robokin-figure"
     return (
-        f'<div class="robokin-figure"><img alt="{html.escape(alt)}" width="{width}" '
+        f'<div class="{kind}"><img alt="{html.escape(alt)}" width="{width}" '
         f'height="{height}" style="max-width:min(100%,{width}px);min-width:{least}px;height:auto" '
         f'src="data:image/png;base64,{image}"></div>\n'
         f"<style>{figure_css()}{style('elements')}\n</style>\n"

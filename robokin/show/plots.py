@@ -112,7 +112,8 @@ class Figure(MatplotlibFigure):
         written: list[Any] = self.findobj(_is_written)
         smallest = min((text.get_fontsize() for text in written), default=SMALLEST)
         least = min(width, int(np.ceil(width * SMALLEST / smallest)))
-        image = figure_image(palette_png(self), self.alt, width, height, least)
+        spatial = bool(self.axes) and not any(ax.axison for ax in self.axes)  # see `Scene`
+        image = figure_image(palette_png(self), self.alt, width, height, least, spatial)
         return {"text/html": image, "text/plain": self.alt}
 
     def __repr__(self) -> str:

@@ -42,5 +42,7 @@
     const boxes = "pre, table, .table-wrapper, .robokin-figure, math[display=block], p, ul, ol";
     for (const box of document.querySelectorAll(`:is(main, article) :is(${boxes})`))
       if (!box.closest(".robokin-player")) sizes.observe(box);
+    for (const box of document.querySelectorAll(".robokin-spatial"))
+      box.scrollLeft = (box.scrollWidth - box.clientWidth) / 2;
   });
 })();
