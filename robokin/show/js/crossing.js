@@ -1,5 +1,5 @@
-// Two links whose tip moves along a straight line: the tracks of both elbows, and the elbow that the
-// quadratic formula of lab 12 returns.
+// Two links whose tip moves along a straight line: the tracks of both elbows, and the elbow that a
+// quadratic formula returns.
 
 import {ik} from "./geometries.js";
 import {distance, polyline} from "./kinematics.js";
@@ -12,7 +12,7 @@ import {exists} from "./rows.js";
 /** @typedef {ClosedFormArm & ArmOf<TwoLinkInverse>} TwoLinkArm */
 /**
  * The tracks of both elbows on one side of the base, and which of them the formula returns there:
- * 0 for the right elbow, 1 for the left one. `u` is how far from the base each sample of the tip is.
+ * 0 for the right elbow, 1 for the left one. `u` is how far from the base each sample is.
  * @typedef {{u: number[], right: Point[], left: Point[], which: number}} Tracks
  */
 

@@ -5,16 +5,7 @@
 export type With<T, K extends keyof T> = T & Required<Pick<T, K>>;
 
 export type PageExplorer =
-  | JointPage
-  | LeversPage
-  | ElbowPage
-  | CrossingPage
-  | TargetPage
-  | MotionPage
-  | RotationPage
-  | SingularityPage
-  | PlanPage
-  | TourPage;
+  JointPage | LeversPage | ElbowPage | CrossingPage | TargetPage | MotionPage | RotationPage | SingularityPage | PlanPage | TourPage;
 
 export type Scale = [number, number, number, number];
 
