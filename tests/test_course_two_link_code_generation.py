@@ -95,7 +95,7 @@ def test_known_mistakes_and_nearly_correct_programs_are_named():
     )
     assert judged(px="a*dx", py="a*dy").mistake == "the base not added at the end"
     near = judged(a=f"0.5 + {K + 1e-4} / d2")
-    assert near.mistake == "nearly right" and "a micrometre is asked" in near.says[0]
+    assert near.mistake == "nearly right" and "the task asks for a micrometre" in near.says[0]
     at = r"elbow is at \((.*?)\); your program says \((.*?)\)"
     right, yours = re.search(at, near.says[0]).groups()
     assert right != yours

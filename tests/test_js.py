@@ -178,6 +178,7 @@ KEYS = {  # for each kind of page: a key that only this kind has, and a script t
     "joint": ("rows: FactRow[];", "joint_explorer.js"),
     "levers": ("curve: PageCosts;", "levers_explorer.js"),
     "elbow": ("elbows: string[];", "elbow_explorer.js"),
+    "crossing": ("eliminated: string;", "crossing_curve.js"),
     "target": ("turning: number[];", "target_explorer.js"),
     "motion": ("samples: number;", "blended.js"),
     "rotation": ("across: number[];", "rotation_explorer.js"),

@@ -14,10 +14,11 @@ import test_tour_explorer
 from test_browser import NEXT_FRAME
 from test_explorers import GOAL, IRB140, LOADER, SCARA, START, VIA
 
-from robokin import three_lever
+from robokin import three_lever, two_link
 from robokin.course.predictions import Asked
 from robokin.show import (
     animate,
+    crossing_explorer,
     elbow_explorer,
     joint_explorer,
     motion_explorer,
@@ -54,6 +55,7 @@ VIEWS = EXPLORERS | {
     "zone": lambda: target_explorer(SCARA, zone=True),
     "levers": lambda: movement_explorer(three_lever(0.3), [1.5, 1.5, 2], (0.495, 0.315)),
     "elbow": lambda: elbow_explorer(IRB140),
+    "crossing": lambda: crossing_explorer(two_link(1, 1), (0.6, 0.8), divisor="x3"),
     "motor": motor_explorer,
     "plan": lambda: plan_explorer(test_live.ARM, test_live.START, (1.9, 0.3), (1.2, 1.3)),
     "tour": lambda: tour_explorer(test_tour_explorer.CIRCLE),

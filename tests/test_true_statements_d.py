@@ -291,10 +291,10 @@ def test_elbows_are_exchanged_on_the_stated_side():
 
 def test_elbow_distances_link_ratio_and_lost_digits_are_as_stated():
     question, options, _ = asked("two_link_code_generation.p2")
-    l1, d = numbers(r"Link 1 is (\S+) m, .* tip is (\S+) m from", question)
+    l1, d = numbers(r"Link 1 is (\S+) m long, .* tip is (\S+) m from", question)
     l2, from_tip, from_base = numbers(
         r"link 2 were (\S+) m long, both elbows would be (\S+) m from the tip and (\S+) m",
-        options[1].second,
+        options[0].second,
     )
     x = (l1**2 - l2**2 + d**2) / (2 * d)
     elbow = np.array([x, np.sqrt(l1**2 - x**2)])
@@ -312,7 +312,7 @@ def test_elbow_distances_link_ratio_and_lost_digits_are_as_stated():
             )
             assert same == (first == second or d == pytest.approx(first + second))
     _, options, _ = asked("two_link_code_generation.p4")
-    assert options[3].reason == "What is divided is lost by rounding first, and is 0 then."
+    assert options[3].reason == "Rounding has already turned the numerator into 0."
     y3, x3 = 1.0, np.array([1e-3, 1e-6, 1e-9, 1e-12])
     d2 = x3**2 + y3**2
     y2 = (y3 * d2 + np.sqrt(x3**2 * d2 * (4 - d2))) / (2 * d2)

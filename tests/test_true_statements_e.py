@@ -676,7 +676,7 @@ def test_generated_c_has_only_doubles_and_both_texts_describe_the_rims_alike():
 def test_between_two_jumps_the_arm_misses_the_tip():
     assert "and between two jumps the arm leaves the marked tip." in flat("12", "casts-drag")
     made = {"np": np}
-    exec(cells("12")["casts-code"], made)
+    exec(cells("12")["casts-motion"], made)
     for y in (1.1, 1.6, 2.1):
         x = np.linspace(1.0, 3.5, 2001)
         elbow = np.array([made["listing"](each, y, 2.5, int) for each in x])

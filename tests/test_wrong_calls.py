@@ -357,6 +357,10 @@ CALLS = {
         dict(arm=IRB140, q=SIX, singular=True, wrist=True),
     ),
     "elbow_explorer": (figures.elbow_explorer, dict(arm=IRB140)),
+    "crossing_explorer": (
+        figures.crossing_explorer,
+        dict(arm=two_link(1, 1), tip=np.array([0.5, 0.5]), divisor="x3"),
+    ),
     "target_explorer": (figures.target_explorer, dict(arm=SCARA, target=PLACE, zone=True)),
     "tour_explorer": (figures.tour_explorer, dict(task=TASK)),
     "motion_explorer": (

@@ -3,6 +3,7 @@
 try:
     from .charts import bars, curves
     from .conveyor import conveyor_player
+    from .crossing_explorer import crossing_explorer
     from .elbow_explorer import elbow_explorer
     from .ellipsoid import plot_velocity_ellipsoid
     from .explorer import Explorer
@@ -31,6 +32,7 @@ __all__ = [
     "animate",
     "bars",
     "conveyor_player",
+    "crossing_explorer",
     "curves",
     "elbow_explorer",
     "figure",

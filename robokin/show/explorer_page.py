@@ -145,6 +145,20 @@ class ElbowPage(ArmPage):
     elbows: list[str]
 
 
+class CrossingPage(ArmPage):
+    """The data of the explorer of a crossing: the tip [x3, y3] in metres, the coordinate of the tip
+    by which the formula divides (0 or 1; None: no formula), the name of the coordinate of the elbow
+    that is drawn over it, the names of the rows and the headings of the table.
+    """
+
+    kind: Literal["crossing"]
+    tip: list[float]
+    divisor: int | None
+    eliminated: str
+    rows: list[str]
+    heads: list[str]
+
+
 class TargetPage(ArmPage):
     """The data of the target explorer: the target, its rotations in radians, the previous posture
     q, the names of the branches, the headings of the table, and the joints whose angle changes are
@@ -247,6 +261,7 @@ PageExplorer: TypeAlias = (
     JointPage
     | LeversPage
     | ElbowPage
+    | CrossingPage
     | TargetPage
     | MotionPage
     | RotationPage

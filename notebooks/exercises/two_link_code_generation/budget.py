@@ -150,13 +150,13 @@ Both pairs are the left elbow: change the sign of h.
   one elbow twice: xr = px - u; yr = py + v
 Your base is not the origin.
   the base taken for the origin: dx = x3; dy = y3; px = a*dx; py = a*dy
-The elbows are counted from your base: add it.
+Your elbows are relative to your base: add it.
   the base not added at the end: px = a*dx; py = a*dy
 l1 is the link on the base.
   the links exchanged: K = (l2**2 - l1**2) / 2; L = l2**2
-Your links differ: a is not 1/2.
+Your links have different lengths, so a is not 1/2.
   equal links assumed: a = 0.5
-This is the arm of the lab, with its base and lengths: take your own.
+This is the arm of the lab. Use your own base and lengths.
   the lab's arm: dx = x3 - 0.2; dy = y3 + 0.1; K = 0.255; L = 1; px = a*dx + 0.2; py = a*dy - 0.1
 """
 SLIPS = f"""
@@ -186,7 +186,7 @@ SLIPS = f"""
   l1² times d2: h = sqrt(L * d2 - a*a)
   l1 for l1²: L = l1
   l2² for l1²: L = l2**2
-With this h the step aside needs a way of length 1: divide h by d. {HEIGHT}
+This h is a length, and it multiplies dx and dy: divide it by d. {HEIGHT}
   h in metres: h = sqrt(L - a*a*d2)
 {HEIGHT}
   h halved: h = sqrt(L / d2 - a*a) / 2
@@ -196,13 +196,13 @@ With this h the step aside needs a way of length 1: divide h by d. {HEIGHT}
   the square of the sum for d2: d2 = (dx + dy)**2
   dx twice in d2: d2 = 2*dx*dx
   dy twice in d2: d2 = 2*dy*dy
-{WAY}: the way goes from the base to the tip.
+{WAY}: the direction is from the base to the tip.
   the way from the tip to the base: dx = base_x - x3; dy = base_y - y3
-{WAY}. A base below 0 is taken away all the same.
+{WAY}. Subtract the base even if it is negative.
   the base added to the tip: dx = x3 + base_x; dy = y3 + base_y
-dx = x3 − base_x: a base below 0 is taken away all the same.
+dx = x3 − base_x: subtract the base even if it is negative.
   the base added to x3: dx = x3 + base_x
-dy = y3 − base_y: a base below 0 is taken away all the same.
+dy = y3 − base_y: subtract the base even if it is negative.
   the base added to y3: dy = y3 + base_y
 {WAY}.
   the base left out of dx and dy: dx = x3; dy = y3
@@ -212,14 +212,14 @@ dy = y3 − base_y.
   the base left out of dy: dy = y3
 {WAY}.
   base_x and base_y exchanged: dx = x3 - base_y; dy = y3 - base_x
-The foot is the base plus a times the way: px = base_x + a dx, py = base_y + a dy.
+The foot is the base plus a times the direction: px = base_x + a dx, py = base_y + a dy.
   1/2 for a in the foot: px = base_x + dx / 2; py = base_y + dy / 2
   no a in the foot: px = base_x + dx; py = base_y + dy
   the foot counted from the tip: px = x3 + a*dx; py = y3 + a*dy
   the foot on the other side of the base: px = base_x - a*dx; py = base_y - a*dy
   dx and dy exchanged in the foot: px = base_x + a*dy; py = base_y + a*dx
   dx for dy in the foot: py = base_y + a*dx
-Across the way is (dy, −dx): xr = px + h dy, yr = py − h dx; on the left all signs change.
+The direction across is (dy, −dx): xr = px + h dy, yr = py − h dx; on the left all signs change.
   aside along the way: u = h*dx; v = h*dy
   aside without the way: u = h; v = h
   both signs alike: yr = py + v; yl = py - v
@@ -256,7 +256,10 @@ def slip(arm: Any, tips: Floats, found: Floats) -> tuple[str, str] | None:
     if np.allclose(found, written(arm, tips), rtol=0, atol=1e-6):
         return None
     if not np.isfinite(found).any():
-        return "NaN", "It gives NaN for every tip that was tried. In reach l1² / d2 is above a²."
+        return (
+            "NaN",
+            "It returns NaN for every tip that we tried. Within reach, l1² / d2 is above a².",
+        )
     return explained(SLIPS, arm, tips, found, most=2, nan=True)
 
 
@@ -266,8 +269,9 @@ def faults(program: str, given: Any) -> list[tuple[str, str]]:
     right, named = written(given, tips), slip(given, tips, found)
     most = float(abs(found - right).max())
     if not named and 1e-6 < most < NEARLY:
-        says = f"Your elbows are off by up to {apart(most / mm, 0)[0]} mm; a micrometre is asked."
-        named = "nearly right", says + " A constant with more digits is nearer."
+        off = apart(most / mm, 0)[0]
+        says = f"Your elbows are off by up to {off} mm; the task asks for a micrometre."
+        named = "nearly right", says + " Give your constants more digits."
     faults: list[tuple[str, str]] = []
     for k, name in ((0, "right"), (2, "left")):
         off = abs(found[:, k : k + 2] - right[:, k : k + 2]).max(axis=-1)
@@ -284,9 +288,9 @@ def faults(program: str, given: Any) -> list[tuple[str, str]]:
     if count > given["budget"]:
         raw = count > 60
         says = f"It has {count} operations, and {given['budget']} are allowed. " + (
-            "Take the common subexpressions out first."
+            "Take out the common subexpressions first."
             if raw
-            else "What is computed twice? What is a constant of your arm?"
+            else "What do you compute twice? What is a constant of your arm?"
         )
         faults.append(("no temporaries" if raw else "too many operations", says))
     return faults

@@ -138,7 +138,7 @@ def law(case: Case, yours: Place, wanted: Place) -> str | None:
             f"{l1 + l2:.4g} m"
         )
     if abs(one - l1) < 1e-6 and abs(two - l2) < 1e-6:
-        return f"{says}, on the {name} of the way from base to tip; yours is on the other side"
+        return f"{says}, to the {name} of the line from base to tip; yours is on the other side"
     (_, from_base), (_, from_tip) = apart(l1, one, 3), apart(l2, two, 3)
     return f"{says}; yours is {from_base} m and {from_tip} m from them"
 

@@ -6,28 +6,15 @@ from typing import Any
 import numpy as np
 
 from robokin import deg, two_link
-from robokin.show import Sketch, animate
+from robokin.show import Sketch, crossing_explorer, figure
+from robokin.show.palette import ALARM, FIRST
 
 from . import predictions as of
 from .shared import LONG, MINUS, SHORT, Floats
 
-TURNS = np.linspace(-np.pi, np.pi, 721)  # p8
-
 
 def p1_view() -> Any:
-    arm = two_link(LONG, SHORT)
-    t, tips = of.crossing()
-    rows = arm.ik(tips)
-    return animate(
-        arm,
-        t,
-        rows[:, 0],
-        points={
-            "tip": np.pad(tips, [(0, 0), (0, 1)]),
-            "other elbow": arm.frames(rows[:, 1])[..., 1].translation,
-        },
-        title=f"Past the base at 0.2 m: {of.p1()['times']} times the elbows meet",
-    )
+    return crossing_explorer(two_link(LONG, SHORT), (-0.9, 0.2))
 
 
 def p2_view() -> Any:
@@ -49,18 +36,12 @@ def p2_view() -> Any:
     return sketch
 
 
-def p3_view() -> str:
-    lines = ["Where is the elbow of the formula with the plus sign?"]
-    for name, tip in of.QUADRANTS.items():
-        sides = ["right" if of.on_right(*tip, k) else "left" for k in (0, 1)]
-        lines.append(
-            f"tip to the {name}: {sides[0]} with x2 eliminated, {sides[1]} with y2 eliminated"
-        )
-    return "\n".join(lines)
+def p3_view() -> Any:
+    return crossing_explorer(two_link(1, 1), (0.8, 0.6), divisor="y3")
 
 
 def expanded(x3: float, y3: float) -> Floats:
-    """As `quadratic`, but as SymPy writes it in section 4: not factored under the root."""
+    """As `quadratic`, but as SymPy writes it: not factored under the root."""
     a, b = 4 * x3**2 + 4 * y3**2, -4 * x3**2 * y3 - 4 * y3**3
     c = -4 * x3**2 + x3**4 + 2 * x3**2 * y3**2 + y3**4
     y2 = (4 * x3**2 * y3 + 4 * y3**3 + math.sqrt(max(-4 * a * c + b**2, 0))) / (2 * a)
@@ -70,8 +51,8 @@ def expanded(x3: float, y3: float) -> Floats:
 def p4_view() -> str:
     lines = [
         "Links of 1 m, tip at (x3, 1): how far is the computed elbow from the base? First by "
-        "`elbow_by_root` of the first cell, then by `root_code` of section 4, the same formula "
-        "with the root multiplied out."
+        "`elbow_by_root` of section 4, then by `root_code` of the next cell, the same formula with "
+        "the root multiplied out."
     ]
     for x3 in (1e-3, 1e-6, 1e-9, 1e-12, 1e-300):
         factored, multiplied = (np.hypot(*rule(x3, 1.0)) for rule in (of.quadratic, expanded))
@@ -105,21 +86,21 @@ def p7_view() -> str:
 
 
 def p8_view() -> Any:
-    arm = two_link(LONG, SHORT)
-    distances = np.array([1.6, 1.69, 1.7])
-    made, ours = [], []
-    for distance in distances:
-        turns = 0.9 * TURNS  # q1 stays within its limits
-        tips = distance * np.stack([np.cos(turns), np.sin(turns)], axis=-1)
-        # on a circle only joint 1 turns, so this is smooth where ik rounds
-        first = arm.ik(tips[0])[arm.branch(+1)]
-        ours.append(first + np.outer(0.9 * (TURNS - TURNS[0]), [1, 0]))
-        made.append(np.where(of.under_root(*tips.T)[:, None] < 0, np.nan, ours[-1]))
-    return animate(
-        [arm, arm],
-        np.linspace(0, 8, len(TURNS)),
-        [np.array(made), np.array(ours)],
-        names=["generated code", "two_link"],
-        slider=("distance, m", distances),
-        title="Round the base: where the generated code has no answer",
+    facts, u = of.p8(), of.share_of_turn()
+    h2 = of.under_root(*of.on_rim(u))
+    lost = h2 < 0
+    picture = figure(
+        f"The square of h for {facts['count']} directions of the stretched arm: below 0 for "
+        f"{facts['lost']}, so that the root is NaN, above 0 for {facts['above']}, and exactly 0 "
+        f"for {facts['zero']}.",
+        height=3.2,
     )
+    ax = picture.subplots()
+    turns = 2 * np.arctan(u) / deg
+    ax.plot(turns[~lost], h2[~lost] * 1e16, ".", color=FIRST, ms=3)
+    ax.plot(turns[lost], h2[lost] * 1e16, "x", color=ALARM, ms=4)
+    ax.set_xlabel("direction of the tip, \N{DEGREE SIGN}")
+    ax.set_ylabel("square of h, 1e\N{MINUS SIGN}16")
+    ax.set_title(f"No answer at the crosses: {facts['lost']} of {facts['count']} tips")
+    picture.tight_layout()
+    return picture

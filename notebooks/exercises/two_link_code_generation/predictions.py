@@ -28,16 +28,10 @@ def below(value: float, limits: Mapping[str, float]) -> str:
     return next(name for name, limit in limits.items() if value < limit)
 
 
-def crossing() -> tuple[Floats, Floats]:
-    """A tip that moves past the base: times and positions."""
-    t = np.linspace(0, 8, 1601)
-    x = np.linspace(-2, 2, len(t))
-    return t, np.stack([x, np.full(len(t), 0.2)], axis=-1)
-
-
 @cache
 def p1() -> dict[str, Any]:
-    _, tips = crossing()
+    x = np.linspace(-2, 2, 1601)
+    tips = np.stack([x, np.full(len(x), 0.2)], axis=-1)
     exists = np.isfinite(two_link(LONG, SHORT).ik(tips)).all(axis=(-1, -2))
     times = int(np.count_nonzero(np.diff(exists.astype(int))))
     return {"times": times, "right": {0: "never", 2: "twice", 3: "three times", 4: "four"}[times]}
@@ -85,6 +79,7 @@ def p4() -> dict[str, Any]:
 def p5() -> dict[str, Any]:
     q1, q2 = two_link(1, 1).ik((2 - GAP, 0))[0]
     facts = {"q2": q2 / deg, "q1": abs(q1) / deg, "linear": GAP / deg, "half": GAP / 2 / deg}
+    facts["radians"] = float(q2)
     return facts | {"right": "q2"}
 
 
@@ -112,7 +107,7 @@ def p6() -> dict[str, Any]:
 
 
 def listing(x3: float, y3: float, length: float, cast: Callable[[float], float]) -> dict[str, Any]:
-    """The results of the program of section 7 and its temporaries, as C computes them."""
+    """The results of the program of section 6 and its temporaries, as C computes them."""
     with np.errstate(all="ignore"):
         t1, t3, t7 = (np.float64(cast(v * v)) for v in (x3, y3, length))
         t5 = np.float64(cast(t1 + t3))
@@ -129,7 +124,7 @@ def p7() -> dict[str, Any]:
 
 
 def under_root(x: Floats, y: Floats) -> Floats:
-    """h squared for tips beside the base at 0, as the program of section 7 computes it."""
+    """h squared for tips beside the base at 0, as the program of section 5 computes it."""
     t1, t3, t4 = LONG**2, x * x, y * y
     t5, t6 = t3 + t4, 2 * t3 + 2 * t4
     t7 = -(SHORT**2) + t1 + t5
@@ -137,11 +132,20 @@ def under_root(x: Floats, y: Floats) -> Floats:
     return h2
 
 
+def share_of_turn() -> Floats:
+    """The values of u in the question: the tangent of half the direction of the tip."""
+    return np.arange(-360, 361) / 360
+
+
+def on_rim(u: Floats) -> tuple[Floats, Floats]:
+    """The tips x, y of the stretched arm."""
+    # only sums, products and quotients: the last digit of cos depends on the machine
+    return 1.7 * (1 - u * u) / (1 + u * u), 1.7 * (2 * u) / (1 + u * u)
+
+
 @cache
 def p8() -> dict[str, Any]:
-    # only sums, products and quotients: the last digit of cos depends on the machine
-    u = np.arange(-360, 361) / 360
-    x, y = 1.7 * (1 - u * u) / (1 + u * u), 1.7 * (2 * u) / (1 + u * u)
+    x, y = on_rim(share_of_turn())
     h2 = under_root(x, y)
     plain = (
         LONG**2 / (x * x + y * y)

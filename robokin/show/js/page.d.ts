@@ -9,6 +9,7 @@ export type PageExplorer =
   | JointPage
   | LeversPage
   | ElbowPage
+  | CrossingPage
   | TargetPage
   | MotionPage
   | RotationPage
@@ -386,6 +387,26 @@ export interface ElbowPage {
   point: number[];
   heads: string[];
   elbows: string[];
+}
+
+export interface CrossingPage {
+  title: string;
+  summary: string;
+  alt: string;
+  meant: string;
+  unit: PageUnit;
+  scene: PageScene;
+  controls: Control[];
+  words: Record<string, string>;
+  code: string;
+  arm: ArmData;
+  units: PageUnit[];
+  kind: "crossing";
+  tip: number[];
+  divisor: number | null;
+  eliminated: string;
+  rows: string[];
+  heads: string[];
 }
 
 export interface TargetPage {

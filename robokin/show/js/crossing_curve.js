@@ -1,0 +1,97 @@
+// The curves below the numbers of the explorer of a crossing: the eliminated coordinate of both
+// elbows over the coordinate of the tip that changes.
+
+import {clear, colors, number, prepared, spot, stroke, upright, write} from "./canvas.js";
+
+/** @import {Context, Pixel, Point} from "./canvas.js" */
+/** @import {Tracks} from "./crossing.js" */
+/** @import {CrossingExplorer, Found, State} from "./crossing_explorer.js" */
+
+const MARGIN = {left: 34, right: 12, top: 24, bottom: 20}; // px
+
+/**
+ * Draws the curves.
+ * @param {HTMLCanvasElement} canvas
+ * @param {CrossingExplorer} data
+ * @param {State} state
+ * @param {Found} found
+ * @returns {?{at: (px: number) => number}}  the coordinate of the tip at a horizontal position
+ */
+export function drawCurves(canvas, data, {tip}, {tracks, meets, elbows, formula, crossing}) {
+  const ready = prepared(canvas);
+  if (!ready) return null;
+  const [g, w, h] = ready,
+    {arm, divisor, controls, unit, eliminated, rows} = data,
+    {l1, reach, base} = arm.geometry,
+    k = divisor ?? 0;
+  const [left, right, top, bottom] = [MARGIN.left, w - MARGIN.right, MARGIN.top, h - MARGIN.bottom],
+    [middle, centre] = [(left + right) / 2, (top + bottom) / 2];
+  /** @type {(u: number) => number} */
+  const x = u => middle + ((right - left) / 2) * (u / reach);
+  /** @type {(at: Point) => number} */
+  const y = at => centre - ((bottom - top) / 2.2) * ((at[k] - base[k]) / l1);
+  /** @type {(at: Point) => number} */
+  const u = at => at[k] - base[k];
+  const name = `${eliminated}, ${unit.name}, of both elbows over ${controls[k].name}`;
+  write(g, name, 4, 14, colors.ink, 12, "left", "600");
+  for (const value of [-l1, 0, l1]) {
+    const level = centre - ((bottom - top) / 2.2) * (value / l1);
+    stroke(
+      g,
+      [
+        [left, level],
+        [right, level],
+      ],
+      colors.grid,
+      1,
+    );
+    const text = number((value + base[k]) / unit.size, unit.size < 1 ? 0 : 1);
+    write(g, text, left - 4, level + 4, colors.soft, 11, "right");
+  }
+  upright(g, x(0), top, bottom, colors.line, 1);
+  for (const value of [-reach, 0, reach]) {
+    const text = number((value + base[k]) / unit.size, unit.size < 1 ? 0 : 1),
+      align = value ? (value < 0 ? "left" : "right") : "center";
+    write(g, text, x(value), bottom + 15, colors.soft, 11, align);
+  }
+  for (const {u: us, right: r, left: l, which} of tracks) {
+    /** @type {(way: Point[]) => Pixel[]} */
+    const line = way => way.map((at, i) => [x(us[i]), y(at)]);
+    if (divisor !== null) stroke(g, line([r, l][which]), clear(colors.ghost, 0.35), 9);
+    stroke(g, line(r), colors.accent, 2);
+    stroke(g, line(l), colors.near, 2, [7, 4]);
+  }
+  if (crossing.length)
+    stroke(
+      g,
+      crossing.map(at => [x(0), y(at)]),
+      colors.alarm,
+      2.2,
+      [4, 4],
+    );
+  upright(g, x(u(tip)), top, bottom, colors.soft, 1, [1.5, 4]);
+  for (const {at, tip: place} of meets)
+    spot(g, [x(u(place)), y(at)], 4, colors.paper, colors.ink, 1.5);
+  elbows.forEach((at, i) => spot(g, [x(u(tip)), y(at)], 3.5, [colors.accent, colors.near][i]));
+  if (formula) spot(g, [x(u(tip)), y(formula)], 5, colors.ink);
+  nameCurves(g, rows, tracks[1], x, y);
+  return {at: px => base[k] + ((px - middle) / ((right - left) / 2)) * reach};
+}
+
+/**
+ * Writes the names of both elbows beside the middle of their curves.
+ * @param {Context} g
+ * @param {string[]} names
+ * @param {Tracks | undefined} track  on the right
+ * @param {(u: number) => number} x
+ * @param {(at: Point) => number} y
+ */
+function nameCurves(g, names, track, x, y) {
+  if (!track) return;
+  const i = track.u.length >> 1,
+    heights = [track.right[i], track.left[i]].map(y),
+    upper = Number(heights[1] < heights[0]);
+  heights.forEach((height, k) =>
+    write(g, names[k], x(track.u[i]), height + (k === upper ? -9 : 19), colors.ink, 11, "center"),
+  );
+}

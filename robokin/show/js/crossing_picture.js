@@ -1,0 +1,155 @@
+// The picture of the explorer of a crossing: the tracks of both elbows, the band of the formula and
+// its jump. Both tracks are on the circle of radius l1 around the base; that of the right elbow is
+// drawn a little outside it, that of the left elbow a little inside.
+
+import {fill} from "./blanks.js";
+import {clear, colors, spot, stroke, write} from "./canvas.js";
+import {movedTo} from "./crossing.js";
+import {singularities} from "./geometries.js";
+import {point} from "./mark.js";
+import {distance2} from "./rows.js";
+
+/** @import {Box, Context, Pixel, Point} from "./canvas.js" */
+/** @import {Camera} from "./camera.js" */
+/** @import {CrossingExplorer, Found, State} from "./crossing_explorer.js" */
+
+const RAIL = 6; // px
+
+/**
+ * The elbows and the tip with their names.
+ * @param {CrossingExplorer} data
+ * @param {State} state
+ * @param {Found} found
+ */
+export function named({rows, words, arm}, {tip}, {rows: q, elbows, which}) {
+  const one = q.length && singularities(arm, q[0]).elbow;
+  const names = elbows.map((_, k) =>
+    k === which ? fill(words.returned, {elbow: rows[k]}) : rows[k],
+  );
+  return [
+    ...(one ? [point(words.both, elbows[0])] : elbows.map((at, k) => point(names[k], at))),
+    point(words.take, tip),
+  ];
+}
+
+/**
+ * The arm with the elbow of the formula, and the other one as a ghost.
+ * @param {(cam: Camera) => Box[]} place  of the handles
+ * @param {CrossingExplorer} data
+ * @param {State} state
+ * @param {Found} found
+ */
+export function posed(place, data, state, found) {
+  const {arm, divisor, words} = data,
+    {rows, which} = found,
+    chosen = divisor === null ? 0 : which;
+  return {
+    name: arm.name,
+    chain: arm.chain,
+    q: rows[chosen] ?? [NaN, NaN],
+    faded: !rows.length,
+    ghosts: rows.filter((_, k) => k !== chosen).map(q => ({q, past: false})),
+    /** @type {(g: Context, cam: Camera) => void} */
+    under: (g, cam) => drawTracks(g, cam, data, state, found),
+    /** @type {(cam: Camera) => Box[]} */
+    handles(cam) {
+      const taken = place(cam);
+      if (divisor !== null) taken.push(lineBox(cam, data));
+      return taken;
+    },
+    /** @type {(g: Context, cam: Camera) => void} */
+    over: (g, cam) => drawMarks(g, cam, data, found),
+  };
+}
+
+/**
+ * The name and the value of the coordinate of the tip at which the formula divides by 0.
+ * @param {CrossingExplorer} data
+ */
+export const lineOf = ({arm, divisor, controls, unit}) => ({
+  letter: controls[divisor ?? 0].name,
+  value: String(+(arm.geometry.base[divisor ?? 0] / unit.size).toFixed(3)).replace("-", "\u2212"),
+});
+
+/**
+ * Both ends of the line on which the formula divides by 0.
+ * @param {CrossingExplorer} data
+ */
+function zeroLine({arm, divisor}) {
+  const {base, reach} = arm.geometry,
+    k = divisor ?? 0;
+  return [1.05, -1.05].map(share => {
+    const at = [...base, 0];
+    at[1 - k] += share * reach;
+    return at;
+  });
+}
+
+/**
+ * The box of the name of that line, at its end.
+ * @param {Camera} cam
+ * @param {CrossingExplorer} data
+ * @returns {Box}
+ */
+function lineBox(cam, data) {
+  const [x, y] = cam.to(zeroLine(data)[0]);
+  return data.divisor ? [x - 50, y - 20, 50, 16] : [x + 4, y - 2, 50, 16];
+}
+
+/**
+ * Draws the line through the tip, the tracks, the band of the formula and its jump.
+ * @param {Context} g
+ * @param {Camera} cam
+ * @param {CrossingExplorer} data
+ * @param {State} state
+ * @param {Found} found
+ */
+function drawTracks(g, {to}, data, {tip}, {tracks, crossing}) {
+  const {arm, divisor} = data,
+    {base, reach} = arm.geometry,
+    k = divisor ?? 0;
+  const rim = Array.from({length: 121}, (_, i) => {
+    const turn = (i * Math.PI) / 60;
+    return to([base[0] + reach * Math.cos(turn), base[1] + reach * Math.sin(turn), 0]);
+  });
+  stroke(g, rim, colors.rim, 1);
+  const line = [-reach, reach].map(u => to(movedTo(arm, tip, k, u)));
+  stroke(g, line, colors.soft, 1.4, [1.5, 4]);
+  if (divisor !== null) stroke(g, zeroLine(data).map(to), colors.soft, 1.2);
+  /** @type {(points: Point[], side: number) => Pixel[]} */
+  const rail = (points, side) => points.map(at => aside(to(at), to([...base, 0]), side * RAIL));
+  for (const {right, left, which} of tracks) {
+    const formula = divisor === null ? [] : [rail(right, 1), rail(left, -1)][which];
+    stroke(g, formula, clear(colors.ghost, 0.35), 11);
+    stroke(g, rail(right, 1), colors.accent, 2.2);
+    stroke(g, rail(left, -1), colors.near, 2.2);
+  }
+  if (crossing.length) stroke(g, crossing.map(to), colors.alarm, 2.4, [5, 5]);
+}
+
+/**
+ * A pixel, moved away from another one by `by`.
+ * @param {Pixel} at
+ * @param {Pixel} from
+ * @param {number} by
+ * @returns {Pixel}
+ */
+function aside([x, y], [x0, y0], by) {
+  const share = 1 + by / distance2(x - x0, y - y0);
+  return [x0 + share * (x - x0), y0 + share * (y - y0)];
+}
+
+/**
+ * Draws the places where the elbows meet, the elbow of the formula, and the name of its line.
+ * @param {Context} g
+ * @param {Camera} cam
+ * @param {CrossingExplorer} data
+ * @param {Found} found
+ */
+function drawMarks(g, cam, data, {meets, formula}) {
+  for (const {at} of meets) spot(g, cam.to(at), 5, colors.paper, colors.ink, 1.6);
+  if (formula) spot(g, cam.to(formula), 6, colors.ink);
+  if (data.divisor === null) return;
+  const [x, y] = lineBox(cam, data);
+  write(g, fill(data.words.line, lineOf(data)), x + 2, y + 12, colors.soft);
+}

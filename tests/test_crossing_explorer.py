@@ -1,0 +1,246 @@
+"""The explorer of two links whose tip crosses a line: the page's elbows, its formula and its jump
+are those of a second calculation, and its sentences say what a reader sees.
+"""
+
+import re
+
+import numpy as np
+import pytest
+import test_explorers
+from axe_playwright_python.sync_playwright import Axe
+from canvas_words import RECORD, faults
+
+from robokin import SCARA, three_lever, two_link
+from robokin.show import crossing_explorer
+from robokin.show.joiner import script
+
+context, opened = test_explorers.context, test_explorers.opened  # fixtures
+NONE = ["\N{EN DASH}"] * 2
+FIRST = crossing_explorer(two_link(1, 1), (0.6, 0.8), divisor="x3")
+
+
+def crossed(base, tip, l1, l2):
+    """The right and the left elbow (2, 2), as points where two circles meet: along the line from
+    base to tip and across it. Source: 002, (1); lab 12.
+    """
+    way = np.subtract(tip, base)
+    d2 = way @ way
+    a = (d2 + l1**2 - l2**2) / (2 * d2)
+    h = np.sqrt(l1**2 / d2 - a**2)
+    return base + a * way + h * np.outer([1, -1], [way[1], -way[0]])
+
+
+# --- The page's own numbers -----------------------------------------------------------------------
+
+
+@pytest.mark.parametrize(
+    "base, l1, l2", [((0, 0), 1, 1), ((0.2, -0.1), 1, 0.7), ((0, 0), 0.4, 0.9)]
+)
+def test_page_elbows_are_where_two_circles_meet(context, base, l1, l2):
+    """1000 tips in reach and out of it. The formula with the plus sign returns the elbow whose kept
+    coordinate is greater.
+    """
+    arm, rng = two_link(l1, l2, base), np.random.default_rng(12)
+    tips = base + (l1 + l2) * rng.uniform(-1.05, 1.05, (1000, 2))
+    page = context.new_page()
+    page.add_script_tag(content=f"{script('crossing')}\nwindow.at = $crossing;")
+    view = crossing_explorer(arm, np.add(base, (0, 0.9 * (l1 + l2))))
+    found = page.evaluate(
+        "([arm, tips]) => tips.map(([x, y]) => [at.elbowsAt(arm, [x, y, 0]), "
+        "at.byRoot(arm, [x, y, 0], 0), at.byRoot(arm, [x, y, 0], 1)])",
+        [view.data["arm"], tips.tolist()],
+    )
+    tracks = page.evaluate(
+        "([arm, tips]) => tips.map(([x, y]) => [0, 1].map(k => at.tracksAt(arm, [x, y, 0], k)))",
+        [view.data["arm"], tips[:40].tolist()],
+    )
+    page.close()
+    reached = 0
+    for tip, (elbows, *formulas) in zip(tips, found, strict=True):
+        d = np.hypot(*(tip - base))
+        if not abs(l1 - l2) <= d <= l1 + l2:
+            assert elbows == []
+            continue
+        reached += 1
+        wanted = crossed(base, tip, l1, l2)
+        assert np.array(elbows)[:, :2] == pytest.approx(wanted, abs=1e-7)
+        for k, formula in enumerate(formulas):
+            kept = wanted[wanted[:, 1 - k].argmax()]
+            assert formula[:2] == pytest.approx(kept, abs=1e-6)
+    assert 300 < reached < 900
+    count = 0
+    for tip, each in zip(tips, tracks, strict=False):
+        for k, parts in enumerate(each):
+            for part in parts:
+                count += len(part["u"])
+                for u, right, left in zip(part["u"], part["right"], part["left"], strict=True):
+                    moved = np.array(tip)
+                    moved[k] = base[k] + u
+                    radius = np.hypot(*(moved - base))
+                    if abs(l1 - l2) + 1e-6 < radius < l1 + l2 - 1e-6:
+                        both = crossed(base, moved, l1, l2)
+                        assert [right[:2], left[:2]] == pytest.approx(both, abs=1e-6)
+                        kept = both[part["which"]]
+                        if abs(u) > 1e-6:
+                            assert kept[1 - k] == pytest.approx(both[:, 1 - k].max(), abs=1e-6)
+    assert count > 4000
+
+
+# --- What a reader sees ---------------------------------------------------------------------------
+
+
+def moved(shown, x, y):
+    shown.type("x3", x)
+    shown.type("y3", y)
+    return shown.look()
+
+
+def numbers(seen):
+    return [[float(cell) for cell in row[1:]] for row in seen.rows]
+
+
+def test_dragging_the_tip_moves_both_elbows(opened):
+    shown, stops = opened(FIRST), []
+    x, y = shown.look().handles["tip"]["at"]
+
+    def each(seen, stop):
+        tip = [float(t) for t in re.findall(r"-?[\d.]+", seen.handles["tip"]["name"])]
+        right, left, formula = numbers(seen)
+        assert [right, left] == pytest.approx(crossed((0, 0), tip, 1, 1), abs=6e-4)
+        upper = max(right, left, key=lambda elbow: elbow[1])
+        assert formula == upper
+        assert np.hypot(*np.subtract(seen.handles["tip"]["at"], stop)) < 2
+        stops.append((*tip, *seen.pixels))
+
+    start = shown.look()
+    shown.drag("tip", (x + 30, y + 20), (x - 100, y + 40), (x - 90, y + 160), each=each)
+    assert len(set(stops)) == 3
+    shown.press("tip", "Home")
+    assert shown.look().rows == start.rows and shown.look().pixels == start.pixels
+    box = shown.rk.locator(".rk-curves").bounding_box()
+    shown.page.mouse.click(box["x"] + 0.3 * box["width"], box["y"] + box["height"] / 2)
+    seen = shown.look()
+    assert -1.1 < seen.boxes["x3"] < -0.5 and seen.boxes["y3"] == start.boxes["y3"]
+
+
+def test_keys_move_the_tip_and_the_code_gives_the_same_elbows(opened):
+    shown = opened(FIRST, two_link(1, 1))
+    shown.press("tip", "ArrowLeft", "Shift+ArrowUp", "ArrowDown")
+    seen = shown.look()
+    assert seen.boxes == {"x3": 0.59, "y3": 0.89}
+    assert "np.array([0.59, 0.89])" in seen.code
+    assert numbers(seen)[:2] == pytest.approx(crossed((0, 0), (0.59, 0.89), 1, 1), abs=6e-4)
+    shown.slide("x3", -9)
+    shown.type("y3", 9)
+    assert shown.look().boxes == {"x3": -2.1, "y3": 2.1}, "the tip leaves the picture"
+
+
+def test_formula_changes_its_elbow_where_the_tip_crosses_the_line(opened):
+    shown, told = opened(FIRST), {}
+    for y in (-1.2, 0.4, 1.73):
+        jump = re.compile(r"it jumps by (\d\.\d+) m at x3 = 0\.")
+        for x in (-0.01, 0.01):
+            seen = moved(shown, x, y)
+            told[x > 0, y] = re.search(r"returns the (\w+) elbow", seen.says)[1]
+            assert float(jump.search(seen.says)[1]) == pytest.approx(
+                np.hypot(*np.diff(crossed((0, 0), (0, y), 1, 1), axis=0)[0]), abs=6e-4
+            )
+            assert f"{told[x > 0, y]} elbow: formula" in seen.words[0]
+        seen = moved(shown, 0, y)
+        assert "divides 0 by 0 and returns no number" in seen.says and seen.rows[2][1:] == NONE
+    # above the base, the upper elbow is the left one where the tip is on the right
+    assert told == {(r, y): ["right", "left"][r] for r in (False, True) for y in (-1.2, 0.4, 1.73)}
+    other = opened(crossing_explorer(two_link(1, 1), (-0.8, 0.5), divisor="y3"))
+    sides = [re.search(r"the (\w+) elbow", moved(other, -0.8, y).says)[1] for y in (0.01, -0.01)]
+    assert sides == ["right", "left"] and "at y3 = 0." in other.look().says
+
+
+def test_places_at_the_rim_and_beyond_are_named(opened):
+    shown = opened(crossing_explorer(two_link(1, 0.7), (-0.9, 0.2)))
+    assert "formula" not in shown.rk.inner_text() and shown.look().says == ""
+    assert "the two elbows meet at 4 places" in shown.look().scene
+    for (x, y), says in {
+        (1.7, 0): "The arm is stretched: both elbows are one.",
+        (0, -0.3): "The arm is folded: both elbows are one.",
+        (1.5, 1.5): "Out of reach: the tip is 421.3 mm beyond the stretched arm.",
+        (0.1, 0): "Out of reach: the tip is 200.0 mm too close to the base.",
+    }.items():
+        seen = moved(shown, x, y)
+        assert seen.says == says
+        assert seen.rows[0][1:] == seen.rows[1][1:]
+        assert (seen.rows[0][1:] == NONE) == says.startswith("Out")
+    gap = opened(crossing_explorer(two_link(1, 0.7), (-0.9, 0.2), divisor="x3")).look().says
+    assert gap.endswith(
+        "The dotted line does not cross x3 = 0 within reach, so the formula does not jump."
+    )
+
+
+def test_picture_is_named_after_what_it_shows(opened):
+    seen = opened(FIRST).look()
+    assert seen.scene.startswith(repr(FIRST)) and seen.scene.endswith(seen.says)
+    right, left = crossed((0, 0), (0.6, 0.8), 1, 1)
+    numbers = [
+        float(x.replace("\N{MINUS SIGN}", "-"))
+        for x in re.findall(r"\N{MINUS SIGN}?\d\.\d+", repr(FIRST))
+    ]
+    assert numbers == pytest.approx([0.6, 0.8, *right, *left], abs=6e-4)
+    assert FIRST.still.alt == FIRST.data["alt"]
+
+
+PLACES = (
+    (0.6, 0.8),
+    (0, 0.8),
+    (-0.3, 0.1),
+    (0, 0),
+    (1.2, 1.6),
+    (2.1, -2.1),
+    (-1.9, 0),
+    (0.1, -1.95),
+)
+
+
+@pytest.mark.parametrize("width, theme", [(914, "light"), (390, "dark")])
+def test_words_on_the_picture_can_be_read_wherever_the_tip_is(browser, opened, width, theme):
+    with browser.new_context(
+        viewport={"width": width, "height": 800}, color_scheme=theme, has_touch=width < 400
+    ) as small:
+        small.add_init_script(test_explorers.WATCH + RECORD)
+        shown = opened(FIRST, within=small)
+        for place in PLACES:
+            moved(shown, *place)
+            assert faults(shown.page) == [], place
+        assert shown.page.evaluate("document.documentElement.scrollWidth") <= width
+        if width > 900:
+            assert shown.rk.bounding_box()["height"] <= 560
+        found = Axe().run(shown.page, context=".rk").response["violations"]
+        assert [v["id"] for v in found if v["impact"] in ("serious", "critical")] == []
+        shown.page.close()
+
+
+# --- Arms and wrong calls -------------------------------------------------------------------------
+
+
+def test_small_arm_is_shown_in_millimetres(opened):
+    shown = opened(crossing_explorer(two_link(0.2, 0.1, (0.05, 0)), (0.2, 0.1), divisor="x3"))
+    right, left, _ = numbers(shown.look())
+    assert [right, left] == pytest.approx(1e3 * crossed((0.05, 0), (0.2, 0.1), 0.2, 0.1), abs=0.06)
+    assert "at x3 = 50." in shown.look().says
+
+
+@pytest.mark.parametrize("arm", [SCARA, three_lever(0.3), "Two links"])
+def test_arm_without_two_links_is_refused(arm):
+    with pytest.raises(TypeError, match="arm: wanted"):
+        crossing_explorer(arm, (0.2, 0.2))
+
+
+@pytest.mark.parametrize(
+    "change, says",
+    [
+        ({"tip": (3, 0)}, "tip: wanted a point in reach, got"),
+        ({"tip": [(0.5, 0.5)]}, "tip: wanted one point"),
+        ({"divisor": "x2"}, "divisor: wanted"),
+    ],
+)
+def test_wrong_arguments_are_refused(change, says):
+    with pytest.raises(ValueError, match=says):
+        crossing_explorer(**{"arm": two_link(1, 1), "tip": (0.5, 0.5), **change})
