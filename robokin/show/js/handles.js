@@ -193,15 +193,28 @@ const STEPS = {ArrowLeft: [-1, 0], ArrowRight: [1, 0], ArrowUp: [0, 1], ArrowDow
  * @returns {Pixel}
  */
 function apart(place, taken, room, inside) {
-  let [x, y] = inside(place);
+  const wanted = inside(place);
+  /** @type {(p: Pixel) => ?Pixel} */
+  const near = ([x, y]) =>
+    taken.find(([a, b]) => (x - a) ** 2 + (y - b) ** 2 < 0.98 * room * room) ?? null;
+  let [x, y] = wanted;
   for (let i = 0; i < 8; i++) {
-    const near = taken.find(([a, b]) => (x - a) ** 2 + (y - b) ** 2 < 0.98 * room * room);
-    if (!near) break;
-    const [dx, dy] = [x - near[0] || 1, y - near[1] || i - 3],
+    const other = near([x, y]);
+    if (!other) return [x, y];
+    const [dx, dy] = [x - other[0] || 1, y - other[1] || i - 3],
       length = Math.sqrt(dx * dx + dy * dy);
-    [x, y] = inside([near[0] + (room * dx) / length, near[1] + (room * dy) / length]);
+    [x, y] = inside([other[0] + (room * dx) / length, other[1] + (room * dy) / length]);
   }
-  return [x, y];
+  // At an edge the steps above can end where they began: take the nearest free place around another
+  // handle.
+  const around = taken.flatMap(([a, b]) =>
+    Array.from({length: 36}, (_, k) =>
+      inside([a + room * Math.cos((k * Math.PI) / 18), b + room * Math.sin((k * Math.PI) / 18)]),
+    ),
+  );
+  /** @type {(p: Pixel) => number} */
+  const away = ([a, b]) => (a - wanted[0]) ** 2 + (b - wanted[1]) ** 2;
+  return around.filter(p => !near(p)).sort((p, q) => away(p) - away(q))[0] ?? [x, y];
 }
 
 /**
