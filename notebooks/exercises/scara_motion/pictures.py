@@ -5,7 +5,7 @@ from typing import Any
 import numpy as np
 
 from robokin import SCARA, ScaraPose, deg, differentiate, lin, mm, ptp
-from robokin.show import JOINT_STYLES, animate, curves, figure, plot_joints
+from robokin.show import JOINT_STYLES, animate, curves, figure
 from robokin.show.palette import ALARM, AREA, COMPARED, INK, REMARK, SOFT
 from robokin.units import wrapped
 
@@ -38,9 +38,25 @@ def p1_view() -> Any:
 
 
 def p2_view() -> Any:
-    q = joints(lin(START, GOAL, S))
-    title = "A line at constant speed: the stroke runs evenly, three joints do not"
-    return plot_joints(SCARA, T, q, differentiate(q, T), title=title)
+    v = differentiate(joints(lin(START, GOAL, S)), T) / [deg, deg, deg, mm]
+    told = "; ".join(
+        f"q{i + 1} from {v[:, i].min():.1f} to {v[:, i].max():.1f} {'mm' if i == 3 else 'degrees'}/s"
+        for i in range(4)
+    )
+    fig = figure(
+        f"The speeds of the four joints over time on the line: {told}. Only q4 keeps its speed.",
+        WIDE,
+        4.6,
+    )
+    for i, ax in enumerate(fig.subplots(2, 2).flat):
+        color, dash = JOINT_STYLES[i]["color"], JOINT_STYLES[i]["dash"]
+        ax.plot(T, v[:, i], color=color, dashes=dash or (1, 0), lw=2)
+        ax.set(xlabel="t, s", title=f"speed of q{i + 1}, {'mm' if i == 3 else '°'}/s")
+        if i == 3:
+            ax.set(ylim=(-8, 0))
+    fig.suptitle("A line at constant speed: only the stroke runs evenly")
+    fig.tight_layout()
+    return fig
 
 
 def p3_view() -> Any:
