@@ -544,7 +544,9 @@ def test_slips_in_the_duration_are_named(spoil, name):
 
 def test_test_of_a_single_posture_gets_a_hint_about_arrays():
     def one_posture(q, limits, lengths):
-        return all(low <= x <= high for x, low, high in zip(q, *_in_si(limits, lengths)))
+        return all(
+            low <= x <= high for x, low, high in zip(q, *_in_si(limits, lengths), strict=False)
+        )
 
     verdict = check("scara_motion.2", one_posture)
     assert not verdict.holds and ".all() or .any()" in " ".join([*verdict.says, verdict.case])

@@ -103,8 +103,8 @@ def told(case: tuple[Any, ...], yours: Floats, wanted: Floats) -> str | None:
         counts = ", which counts as positive" if q0[1] == 0 else ""
         return (
             f"the elbow has changed its side: joint 2 stands at {q0[1] / deg:.1f}° in q0{counts}, "
-            f"and yours ends at {yours[1] / deg:.1f}°. It should end at {wanted[1] / deg:.1f}°, and "
-            f"joint 1 at {wanted[0] / deg:.1f}°"
+            f"and yours ends at {yours[1] / deg:.1f}°. It should end at {wanted[1] / deg:.1f}°, "
+            f"and joint 1 at {wanted[0] / deg:.1f}°"
         )
     for k in (0, 1):
         if off[k]:
@@ -117,8 +117,8 @@ def told(case: tuple[Any, ...], yours: Floats, wanted: Floats) -> str | None:
     turns, yours_turns = apart(end - now, got - now)
     third, yours_third = apart(wanted[2] / deg, yours[2] / deg)
     return (
-        f"the tool stands at {now:.1f}°. It should turn by {turns}°, to {end:.1f}°, with joint 3 at "
-        f"{third}°. Yours turns it by {yours_turns}°, with joint 3 at {yours_third}°"
+        f"the tool stands at {now:.1f}°. It should turn by {turns}°, to {end:.1f}°, with joint 3 "
+        f"at {third}°. Yours turns it by {yours_turns}°, with joint 3 at {yours_third}°"
     )
 
 

@@ -7,7 +7,7 @@ import numpy as np
 from robokin import deg, mm
 from robokin.course.forms import truth
 
-from .shared import HIGH, LOW, MINUS, Floats
+from .shared import MINUS, Floats
 
 Case = tuple[Floats, Floats, Any]  # q, limits as in the data sheet, which joints are lengths
 

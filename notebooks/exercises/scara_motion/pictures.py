@@ -32,7 +32,7 @@ def p1_view() -> Any:
             if i == 2:
                 ax.text(0.6, q[0] + 9, f"{angle}°", fontsize=10)
         ax.set(xlabel="t, s", title=f"q{i + 1}, {'mm' if i == 3 else '°'}")
-    fig.suptitle("With another tool angle at the start (0°, 45°, 90°), only joint 3 moves differently")
+    fig.suptitle("Another tool angle at the start (0°, 45°, 90°): only joint 3 moves differently")
     fig.tight_layout()
     return fig
 
@@ -111,7 +111,9 @@ def p5_view() -> Any:
     place, speed = fig.subplots(2, 1)
     place.plot(t, [0, down, down - up], "-.", color=PINK, lw=2)
     speed.plot(t[:2], [before] * 2, "-.", t[1:], [after] * 2, "-.", color=PINK, lw=2)
-    place.set(xlabel="time t, s", ylabel="q4 since the start, mm", title="A lower tool is more stroke")
+    place.set(
+        xlabel="time t, s", ylabel="q4 since the start, mm", title="A lower tool is more stroke"
+    )
     jump = f"A jump of {Shown(after - before):g} mm/s"
     speed.set(xlabel="time t, s", ylabel="speed of q4, mm/s", title=jump)
     speed.margins(y=0.15)
