@@ -32,16 +32,16 @@ def p1_view() -> Any:
             if i == 2:
                 ax.text(0.6, q[0] + 9, f"{angle}°", fontsize=10)
         ax.set(xlabel="t, s", title=f"q{i + 1}, {'mm' if i == 3 else '°'}")
-    fig.suptitle("Another tool angle at the start (0°, 45°, 90°): only joint 3 moves differently")
+    fig.suptitle("Three tool angles at the start (0°, 45°, 90°): only joint 3 differs")
     fig.tight_layout()
     return fig
 
 
 def p2_view() -> Any:
     v = differentiate(joints(lin(START, GOAL, S)), T) / [deg, deg, deg, mm]
+    ends = zip(v.min(axis=0), v.max(axis=0), ["degrees/s"] * 3 + ["mm/s"], strict=True)
     told = "; ".join(
-        f"q{i + 1} from {v[:, i].min():.1f} to {v[:, i].max():.1f} {'mm' if i == 3 else 'degrees'}/s"
-        for i in range(4)
+        f"q{i} from {low:.1f} to {high:.1f} {unit}" for i, (low, high, unit) in enumerate(ends, 1)
     )
     fig = figure(
         f"The speeds of the four joints over time on the line: {told}. Only q4 keeps its speed.",
