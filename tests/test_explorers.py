@@ -1294,6 +1294,19 @@ def test_rings_are_at_the_axes_of_their_joints_and_do_not_overlap(browser, opene
     context.close()
 
 
+def test_rings_of_a_via_point_at_the_edge_of_the_scene_do_not_lie_on_one_another(opened):
+    shown = opened(motion_explorer(SCARA, *POSES[SCARA]), SCARA)
+    most = shown.data["controls"][0]["high"]
+    for ends in itertools.product((-most, most), repeat=3):
+        for letter, value in zip("xyz", ends, strict=True):
+            shown.type(f"via {letter}", value)
+        handles = shown.look().handles
+        places = np.array([each["at"] for each in handles.values()])
+        between = np.linalg.norm(places[:, None] - places, axis=-1)
+        assert len(handles) == 6
+        assert between[np.triu_indices(6, 1)].min() > 24, (ends, handles)
+
+
 def test_wrist_centre_is_marked_and_does_not_move_while_the_wrist_turns(opened):
     q = np.array([20, 70, -50, 30, 60, 40]) * deg
     shown = opened(joint_explorer(ITMO6R, q, wrist=True), ITMO6R)

@@ -13,7 +13,7 @@ from .predictions import B1, H1, H2, OFF, acceleration, behind, near_start, p5, 
 from .shared import GOAL, HIGH, ROW, START, VIA, S, Shown, T, joints, stroke
 
 FEW = T[::10]  # every 0.2 s: enough for a view that shows a shape
-WIDE = 4.9  # inches: a figure of this width fits on a phone without scrolling
+WIDE = 4.2  # inches: a figure of this width fits on a phone without scrolling
 PINK = JOINT_STYLES[3]["color"]  # joint 4
 
 
@@ -51,10 +51,10 @@ def p2_view() -> Any:
     for i, ax in enumerate(fig.subplots(2, 2).flat):
         color, dash = JOINT_STYLES[i]["color"], JOINT_STYLES[i]["dash"]
         ax.plot(T, v[:, i], color=color, dashes=dash or (1, 0), lw=2)
-        ax.set(xlabel="t, s", title=f"speed of q{i + 1}, {'mm' if i == 3 else '°'}/s")
+        ax.set(xlabel="t, s", title=f"q{i + 1}, {'mm' if i == 3 else '°'}/s")
         if i == 3:
             ax.set(ylim=(-8, 0))
-    fig.suptitle("A line at constant speed: only the stroke runs evenly")
+    fig.suptitle("Speeds on a line: only the stroke runs evenly")
     fig.tight_layout()
     return fig
 
@@ -167,7 +167,7 @@ def p7_view() -> Any:
         ax.plot(S, q, "--", color=SOFT, lw=1.5)
         ax.text(0.97, q[-1] - 75, "as it turns", ha="right", va="top", color=REMARK)
         ax.plot(S, shown, color=JOINT_STYLES[i]["color"], lw=2)
-        ax.text(0.97, seen[-1] - 75, "wrapped", ha="right", va="top")
+        ax.text(0.97, seen[-1] - 110, "wrapped", ha="right", va="top")
         if caught.any():
             ax.plot(S[caught], seen[caught], ".", color=ALARM, ms=5)
             ax.text(S[caught][0] - 0.02, seen[caught][0] + 15, "caught", ha="right", color=ALARM)
