@@ -252,8 +252,8 @@ def test_message_about_a_case_states_degrees_and_the_side_of_the_elbow():
     [
         (_degrees_without_limits, "degrees for radians"),
         (_nearest_row, "the nearer posture, elbow changed"),
-        (_zero_is_negative, "joint 2 at 0 taken for negative"),
-        (_zero_is_negative_and_ik_as_it_is, "joint 2 at 0 taken for negative, and the row of ik"),
+        (_zero_is_negative, "joint 2 at 0 counts as negative"),
+        (_zero_is_negative_and_ik_as_it_is, "joint 2 at 0 counts as negative, and the row of ik"),
         (_stroke_in_both_angles, "joint 4 is added to both angles"),
         (_joint, "joint 3"),
         (_three_turns, "joint 3"),
@@ -287,29 +287,37 @@ def test_mistakes_in_the_rotation_are_named(answer, word):
 # --- Exercise 2: a limit test ---------------------------------------------------------------------
 
 
-def _loops(q):
+def _loops(q, limits, lengths):
     for posture in q:
-        for value, low, high in zip(posture, LOW, HIGH, strict=True):
-            if not low <= value <= high:
+        for value, (low, high), length in zip(posture, limits, lengths, strict=True):
+            size = 0.001 if length else np.pi / 180
+            if not low * size <= value <= high * size:
                 return False
     return True
 
 
-def _middles(q):
-    return np.all(abs(q - (LOW + HIGH) / 2) <= (HIGH - LOW) / 2 + 1e-9)
+def _in_si(limits, lengths):
+    return np.array(limits).T * [0.001 if length else np.pi / 180 for length in lengths]
 
 
-def _extremes(q):
-    return bool((q.min(axis=0) >= LOW).all() and (q.max(axis=0) <= HIGH).all())
+def _middles(q, limits, lengths):
+    low, high = _in_si(limits, lengths)
+    return np.all(abs(q - (low + high) / 2) <= (high - low) / 2 + 1e-9)
 
 
-def _slack(q):
-    return not (~((q >= LOW - 9e-7) & (q <= HIGH + 9e-7))).any()
+def _extremes(q, limits, lengths):
+    low, high = _in_si(limits, lengths)
+    return bool((q.min(axis=0) >= low).all() and (q.max(axis=0) <= high).all())
 
 
-def _in_degrees_and_mm(q):
-    unit = np.array([deg, deg, deg, mm])
-    return bool(((q / unit >= LOW / unit) & (q / unit <= HIGH / unit)).all())
+def _slack(q, limits, lengths):
+    low, high = _in_si(limits, lengths)
+    return not (~((q >= low - 9e-7) & (q <= high + 9e-7))).any()
+
+
+def _in_degrees_and_mm(q, limits, lengths):
+    shown = np.where(lengths, 1000 * q, np.degrees(q))
+    return bool(((shown >= limits[:, 0]) & (shown <= limits[:, 1])).all())
 
 
 @pytest.mark.parametrize("answer", [_loops, _middles, _extremes, _slack, _in_degrees_and_mm])
@@ -317,44 +325,68 @@ def test_correct_limit_tests_pass_in_every_style(answer):
     assert check("scara_motion.2", answer).holds
 
 
-def _forgetful(q):
-    return all(LOW[i] <= v <= HIGH[i] for p in q for i, v in enumerate(p[:-1]))
+def _forgetful(q, limits, lengths):
+    return _loops(q[:, :-1], limits[:-1], lengths[:-1])
 
 
-def _wraps(q):
-    q = np.array(q)
-    q[:, :3] = _wrap(q[:, :3])
-    return _loops(q)
+def _stroke_last(q, limits, lengths):
+    return _loops(q, limits, [False, False, False, True])
 
 
-def _wraps_by_sine(q):
-    return _loops(np.append(np.arctan2(np.sin(q[:, :3]), np.cos(q[:, :3])), q[:, 3:], axis=1))
+def _wraps(q, limits, lengths):
+    return _loops(np.where(lengths, q, _wrap(q)), limits, lengths)
 
 
-def _ends(q):
-    return _loops(q[[0, -1]])
+def _wraps_by_sine(q, limits, lengths):
+    return _loops(np.where(lengths, q, np.arctan2(np.sin(q), np.cos(q))), limits, lengths)
+
+
+def _labs_arm(q, limits, lengths):
+    return bool(((q >= SCARA.limits[:, 0]) & (q <= SCARA.limits[:, 1])).all())
+
+
+def _some(chosen):
+    """A test of chosen samples only."""
+    return lambda q, limits, lengths: _loops(chosen(q), limits, lengths)
+
+
+def _compared(within):
+    """A test that compares all values with the limits in rad and m."""
+    return lambda q, limits, lengths: within(q, *_in_si(limits, lengths))
 
 
 @pytest.mark.parametrize(
     ("answer", "word"),
     [
-        (_forgetful, "stroke is never tested"),
+        (_forgetful, "the last joint is never tested"),
+        (_stroke_last, "only the last axis is a length"),
+        (_labs_arm, "the limits of this lab's arm"),
         (_wraps, "wrapped"),
         (_wraps_by_sine, "wrapped"),
-        (_ends, "only the ends"),
-        (lambda q: _loops(q[::2]), "samples are left out"),
-        (lambda q: _loops(q[::3]), "samples are left out"),
-        (lambda q: _loops(q[::5]), "samples are left out"),
-        (lambda q: _loops([*q[::10], q[-1]]), "samples are left out"),
-        (lambda q: not ((q < LOW) | (q > HIGH)).any(), "NaN passes"),
-        (lambda q: _loops(q[~np.isnan(q).any(axis=1)]), "NaN passes"),
-        (lambda q: bool(((q > LOW) & (q < HIGH)).all()), "themselves"),
-        (lambda q: not _loops(q), "swapped"),
-        (lambda q: False, "one answer to everything"),
-        (lambda q: True, "one answer to everything"),
-        (lambda q: (q >= LOW) & (q <= HIGH), "another kind"),
-        (lambda q: bool(((q >= LOW - 1e-3) & (q <= HIGH + 1e-3)).all()), "a margin too wide"),
-        (lambda q: not ((q < LOW - 1e-4) | (q > HIGH + 1e-4)).any(), "a margin too wide, and NaN"),
+        (_some(lambda q: q[[0, -1]]), "only the ends"),
+        (_some(lambda q: q[::2]), "samples are left out"),
+        (_some(lambda q: q[::3]), "samples are left out"),
+        (_some(lambda q: q[::5]), "samples are left out"),
+        (_some(lambda q: [*q[::10], q[-1]]), "samples are left out"),
+        (_compared(lambda q, low, high: not ((q < low) | (q > high)).any()), "NaN passes"),
+        (_some(lambda q: q[~np.isnan(q).any(axis=1)]), "NaN passes"),
+        (_compared(lambda q, low, high: bool(((q > low) & (q < high)).all())), "themselves"),
+        (lambda *case: not _loops(*case), "swapped"),
+        (lambda *case: False, "one answer to everything"),
+        (lambda *case: True, "one answer to everything"),
+        (_compared(lambda q, low, high: (q >= low) & (q <= high)), "another kind"),
+        (
+            _compared(lambda q, low, high: bool(((q >= low - 1e-3) & (q <= high + 1e-3)).all())),
+            "a margin too wide",
+        ),
+        (
+            _compared(lambda q, low, high: not ((q < low - 1e-4) | (q > high + 1e-4)).any()),
+            "a margin too wide, and NaN",
+        ),
+        (
+            lambda q, limits, lengths: bool(((q >= limits[:, 0]) & (q <= limits[:, 1])).all()),
+            "limits in degrees and mm",
+        ),
     ],
 )
 def test_mistakes_in_limit_tests_are_named(answer, word):
@@ -364,33 +396,29 @@ def test_mistakes_in_limit_tests_are_named(answer, word):
 
 @pytest.mark.parametrize("joint", [1, 2, 3])
 def test_verdict_names_the_joint_that_is_never_tested(joint):
-    def one_left_out(q):
+    def one_left_out(q, limits, lengths):
         q = q.copy()
-        q[~np.isnan(q).any(axis=1), joint - 1] = 0.1
-        return _loops(q)
+        q[~np.isnan(q).any(axis=1), joint - 1] = _in_si(limits, lengths).mean(axis=0)[joint - 1]
+        return _loops(q, limits, lengths)
 
     verdict = check("scara_motion.2", one_left_out)
     assert verdict.mistake == f"joint {joint} is never tested", verdict
 
 
-def _limited(low=LOW, high=HIGH):
-    return lambda q: bool(((q >= low) & (q <= high)).all())
+@pytest.mark.parametrize("end", [0, 1])
+def test_verdict_names_the_limits_of_lengths_that_are_never_tested(end):
+    def one_side(q, limits, lengths):
+        limits = limits.copy()
+        limits[lengths, end] = (-9e9, 9e9)[end]
+        return _loops(q, limits, lengths)
 
-
-@pytest.mark.parametrize(
-    ("answer", "name"),
-    [
-        (_limited(low=np.array([*LOW[:3], -9.0])), "the stroke's lower limit is never tested"),
-        (_limited(high=np.array([*HIGH[:3], 9e9])), "the stroke's upper limit is never tested"),
-        (lambda q: _limited()(np.round(q / [deg, deg, deg, 1e-9]) * [deg, deg, deg, 1e-9]), None),
-    ],
-)
-def test_similar_program_does_not_get_the_name_of_another_mistake(answer, name):
-    assert check("scara_motion.2", answer).mistake == name
+    name = f"the {('lower', 'upper')[end]} limits of lengths are never tested"
+    assert check("scara_motion.2", one_side).mistake == name
 
 
 def test_message_about_a_case_of_the_limit_test_states_the_excess():
     law = LAB.module("limits_kept")["law"]
+    sheet = np.array([[-140, 140], [-150, 150], [-400, 400], [0, 180]]), np.arange(4) == 3
     q = np.tile([0.1, 0.5, 0.2, 0.1], (3, 1))
     for joint, value, told in (
         (3, -2e-6, "joint 4 at −0.0000020 m, 0.002 mm below its limit of 0 mm"),
@@ -399,10 +427,11 @@ def test_message_about_a_case_of_the_limit_test_states_the_excess():
     ):
         bad = q.copy()
         bad[1, joint] = value
-        assert told in law((bad,), True, False)
-        assert law((bad,), False, False) is None
+        assert told in law((bad, *sheet), True, False)
+        assert law((bad, *sheet), False, False) is None
     bad[1, 0] = HIGH[0] - 1e-7
-    assert "joint 1 at 2.4434609 rad, its limit is 2.4434610 rad" in law((bad,), False, True)
+    told = law((bad, *sheet), False, True)
+    assert "joint 1 at 2.4434609 rad, its limit is 2.4434610 rad" in told
 
 
 # --- Exercise 3: an individual blend --------------------------------------------------------------
@@ -474,7 +503,7 @@ def test_answers_to_predictions_agree_with_other_calculations():
     assert float(right["p5"]) == -90 / 5 - 60 / 5
     assert float(right["p6"]) == 180
     assert float(right["p8"]) == pytest.approx(2 * 0.4 * 60 * 180 / 240, abs=0.5)
-    assert "0.35" in right["p9"] and right["p10"] == "Half of it."
+    assert "0.35" in right["p9"] and right["p10"] == "It falls to half."
 
 
 def test_corners_of_different_blends_differ_only_in_scale():
@@ -495,8 +524,8 @@ def test_corners_of_different_blends_differ_only_in_scale():
         (lambda t: t**2, "the root is forgotten"),
         (lambda t: t / 2, "half of the duration"),
         (lambda t: 2 * t, "twice the duration"),
-        (lambda t: t / 1000**0.5, "mm for m"),
-        (lambda t: t * 1000**0.5, "mm for m"),
+        (lambda t: t / 1000**0.5, "mm instead of m"),
+        (lambda t: t * 1000**0.5, "mm instead of m"),
         (lambda t: 1.3 * t, "slower than needed"),
         (lambda t: 0.9 * t, "too fast"),
         (lambda t: 0.508 * t, "too fast"),  # not exactly half, so the cause is unknown
@@ -514,8 +543,10 @@ def test_slips_in_the_duration_are_named(spoil, name):
 
 
 def test_test_of_a_single_posture_gets_a_hint_about_arrays():
-    def one_posture(q):
-        return all(LOW[i] <= x <= HIGH[i] for i, x in enumerate(q))
+    def one_posture(q, limits, lengths):
+        return all(
+            low <= x <= high for x, low, high in zip(q, *_in_si(limits, lengths), strict=False)
+        )
 
     verdict = check("scara_motion.2", one_posture)
     assert not verdict.holds and ".all() or .any()" in " ".join([*verdict.says, verdict.case])

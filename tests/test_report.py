@@ -53,7 +53,7 @@ def hostile(tmp_path_factory):
         "while True:\n    print('x' * 1000)",
         solution("scara_motion.1"),
         '%time 1\ncheck("scara_motion.1", answer=least_turn)',
-        "def inside(q):\n    return True",
+        "def inside(q, limits, lengths):\n    return True",
         cell('course_check = check\ncheck("scara_motion.2", inside)', "scara_motion.2: holds."),
         solution("scara_motion.3"),  # solves the variant of "your name"
         cell('check("scara_motion.3", design, who=who)', "scara_motion.3: holds."),
@@ -68,7 +68,7 @@ def hostile(tmp_path_factory):
 def test_verdicts_match_the_answers(hostile):
     one, two, three = hostile.data["exercises"]
     assert (one["id"], one["state"], one["points"]) == ("scara_motion.1", "holds", 1)
-    wrong = course.check("scara_motion.2", lambda q: True)
+    wrong = course.check("scara_motion.2", lambda *case: True)
     assert two["state"] == "does not hold" and two["points"] == wrong.points < 1
     assert (two["mistake"], two["case"]) == (wrong.mistake, wrong.case) and wrong.mistake
     assert tuple(two["says"]) == wrong.says

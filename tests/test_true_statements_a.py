@@ -411,7 +411,7 @@ def test_elbow_plus_one_bends_to_the_left_in_both_labs():
     # seen along the first lever, the second one points to the left
     assert first[0] * second[1] - first[1] * second[0] > 0 and q2 > 0
     assert "+1 bends to the left, −1 to the right" in sources("04")["triangle-formula"]
-    assert "the elbow that bends to the left: joint 2 positive" in sources("05")["setup"]
+    assert "the elbow that bends to the left: joint 2 positive" in sources("05")["half-code"]
     for text in (*sources("04").values(), *sources("05").values()):
         assert not re.search(r"elbow to the (right|left)", text)
 
@@ -431,10 +431,10 @@ def test_no_angle_is_printed_as_minus_zero():
 
 
 def test_speed_jump_is_inversely_proportional_to_the_total_time():
-    assert "clock = s * total" in sources("05")["corner-figure"]
+    assert "clock = s * total" in sources("05")["corner-jump"]
     jumps = []
     for value in ("20.0", *tries("05", "corner-jump", "total")):
-        g, _ = run("05", "setup", "corner-jump", name="total", value=value)
+        g, _ = run("05", "ptp-code", "between-code", "corner-jump", name="total", value=value)
         total = float(value)
         t = total * (0.5 + np.arange(-2, 3) * 1e-6)
         poses = [g["start"].lerp(g["via"], 2 * x / total) for x in t[:3]]

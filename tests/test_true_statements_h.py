@@ -15,7 +15,6 @@ from robokin import (
     ITMO6R,
     SCARA,
     Quaternion,
-    ScaraPose,
     Transform,
     blend,
     deg,
@@ -137,13 +136,94 @@ def test_both_corners_can_blend_objects_of_the_class_that_the_lab_suggests():
 # --- Lab 05 ---------------------------------------------------------------------------------------
 
 
-def test_the_lower_goal_is_reachable_and_below_the_lift_height():
-    text = flat("05", "deeper-zones")
-    (x, y, z, angle) = numbers(
-        r"lower goal, `target\((\S+), (\S+), (\S+), (\S+)\)`, that lifts", text
+STATIONS = np.array([[200, 300, 120], [400, 100, 0], [200, -200, 200]])  # mm
+DEEPEST = 220.2 - 180  # mm, the lowest height of the tool
+
+
+def _elbow_left(x, y, turn=0.0):
+    """q1, q2 and q3 in degrees by the law of cosines, for a place in mm and the tool's angle."""
+    q2 = np.arccos((x**2 + y**2 - 200**2 - 250**2) / (2 * 200 * 250))
+    q1 = np.arctan2(y, x) - np.arctan2(250 * np.sin(q2), 200 + 250 * np.cos(q2))
+    return np.degrees([q1, q2, np.radians(turn) - q1 - q2])
+
+
+def _rounded(via_z, blend_, count=200_001):
+    """The places (count, 3) of the corner's parabola, in mm."""
+    x = np.linspace(0, 1, count)[:, None]
+    start, via, goal = STATIONS - [[0, 0, 0], [0, 0, -via_z], [0, 0, 0]]
+    return via + 2 * blend_ * ((1 - x) ** 2 * (start - via) + x**2 * (goal - via))
+
+
+def test_joint_3_ends_where_each_way_round_takes_it():
+    text = flat("05", "half-look")
+    told = re.findall(r"at (\S+)° if you ask for (\S+)°", text.replace("\N{MINUS SIGN}", "-"))
+    told = [(float(turn), float(end)) for end, turn in told]
+    one, other, *ends = numbers(r"With (\S+)° and (\S+)° it ends at (\S+)° and (\S+)°, past", text)
+    told += [(one, ends[0]), (other, ends[1])]
+    assert [turn for turn, _ in told] == [180, -180, 540, -540]
+    for turn, end in told:
+        q3 = _elbow_left(400, 100, turn)[2]
+        assert round(q3) == end and (abs(q3) > 400) == (abs(turn) == 540)
+
+
+def test_the_tool_turns_by_30_degrees_while_joint_3_makes_up_for_the_arm():
+    first, last, back = numbers(
+        r"from (\S+)° to (\S+)°: joints 1 and 2 turn the tool back by (\S+)°",
+        flat("05", "yourturn-3-text"),
     )
-    assert "lifts the tool to 200 mm, moves over, and lowers it: three lines, two" in text
-    assert z < 200 and np.isfinite(SCARA.ik(ScaraPose(np.array([x, y, z]) * mm, angle * deg))).any()
+    q1, q2, q3 = _elbow_left(300, 150, 340)
+    assert round(q3) == last and first == 150 and round(100 + 60 - q1 - q2) == back
+    assert "the tool turns by 30°" in flat("05", "turn-text")
+    assert 340 - (100 + 60 + 150) == 30 and last < 400 < _elbow_left(300, 150, 700)[2]
+
+
+def test_the_least_heights_of_via_are_as_stated():
+    without, with_blend = numbers(
+        r"At (\S+) mm the stroke .* With a blend of 0\.1, \*via\* may be as low as (\S+) mm",
+        flat("05", "blend-answer"),
+    )
+    assert without == pytest.approx(DEEPEST)
+    assert _rounded(with_blend, 0.1)[:, 2].min() > DEEPEST
+    assert _rounded(with_blend - 0.1, 0.1)[:, 2].min() < DEEPEST
+    distance, least = numbers(r"About (\S+) mm, with a blend of (\S+)\.", flat("05", "able"))
+    path = _rounded(0, least)
+    assert path[:, 2].min() == pytest.approx(DEEPEST, abs=0.01)
+    assert round(np.linalg.norm(path - STATIONS[1], axis=1).min()) == distance
+    assert "stroke of 220.2 mm, but joint 4 stops at 180 mm" in flat("05", "able")
+
+
+def test_the_least_blend_is_the_share_of_the_time_below_the_lowest_height():
+    text = flat("05", "blend-look")
+    samples, least = numbers(r"the two numbers (\d+) and (\S+): without a blend", text)
+    z = np.interp(np.linspace(0, 1, 1001), [0, 0.5, 1], STATIONS[:, 2])
+    assert (z < DEEPEST).sum() == samples
+    fine = np.interp(np.linspace(0, 1, 1_000_001), [0, 0.5, 1], STATIONS[:, 2])
+    assert (fine < DEEPEST).mean() == pytest.approx(least, abs=1e-4)
+
+
+def test_lin_leaves_its_limits_for_the_stated_goals_and_ptp_does_not():
+    text, made = flat("05", "ends-look"), run_cells("05", "ends-player")
+    assert "LIN leaves the limits at x = 0 and below" in text
+    assert "(At x = −150 the line passes so close" in text and "there is no solution.)" in text
+    s = np.linspace(0, 1, 2001)
+    for x in (-150, *made["race_x"]):
+        with np.errstate(invalid="ignore"):
+            q = np.transpose(_elbow_left(200 + s * (x - 200), 300 - 700 * s))[:, :2]
+        assert np.isnan(q).any() == (x == -150)
+        bad1, bad2 = ((abs(np.unwrap(q, axis=0, period=360)) > [140, 150]).any(axis=0)
+                      if x > -150 else (True, True))  # fmt: skip
+        assert bool(bad1) == bool(bad2) == (x <= 0), x
+    even = made["race_ptp"]
+    assert ((even >= SCARA.limits[:, 0]) & (even <= SCARA.limits[:, 1])).all()
+
+
+def test_joint_1_is_faster_by_nearly_half_if_the_goal_is_closer():
+    assert "the greatest speed of joint 1 grows by nearly half" in flat("05", "lin-look")
+    s, most = np.linspace(0, 1, 20001), []
+    for x in (200, 100):
+        q1 = _elbow_left(200 + s * (x - 200), 300 - 500 * s)[0]
+        most.append(abs(np.gradient(np.unwrap(q1, period=360), s)).max())
+    assert 1.4 < most[1] / most[0] < 1.5
 
 
 def test_nan_is_neither_less_nor_greater_but_unequal():

@@ -95,31 +95,30 @@ def told(case: tuple[Any, ...], yours: Floats, wanted: Floats) -> str | None:
     q0, position, angle = case
     if off[:2].any() and (abs(yours[:2] * deg - wanted[:2]) <= 1e-6).all():
         return (
-            f"joint 2 is {yours[1]:.1f}, which is right in degrees; wanted are radians, "
-            f"{wanted[1]:.4f}, and metres for joint 4"
+            f"joint 2 is {yours[1]:.1f}, which is right in degrees. It should be in radians, "
+            f"{wanted[1]:.4f}, and joint 4 in metres"
         )
     other = same_elbow(q0, position, angle, -1)
     if off[:2].any() and (abs(wrapped(yours[:2] - other[:2])) <= 1e-6).all():
         counts = ", which counts as positive" if q0[1] == 0 else ""
         return (
             f"the elbow has changed its side: joint 2 stands at {q0[1] / deg:.1f}° in q0{counts}, "
-            f"and yours ends at {yours[1] / deg:.1f}°; {wanted[1] / deg:.1f}° is right, with joint "
-            f"1 at {wanted[0] / deg:.1f}°"
+            f"and yours ends at {yours[1] / deg:.1f}°. It should end at {wanted[1] / deg:.1f}°, "
+            f"and joint 1 at {wanted[0] / deg:.1f}°"
         )
     for k in (0, 1):
         if off[k]:
             at, is_at = apart(wanted[k] / deg, yours[k] / deg)
-            return f"joint {k + 1} should be at {at}° (with the elbow of q0), and is at {is_at}°"
+            return f"joint {k + 1} should be at {at}° (with the elbow of q0), but is at {is_at}°"
     if off[3]:
         at, is_at = apart(wanted[3] / mm, yours[3] / mm)
-        return f"joint 4 should be at {at} mm, and is at {is_at} mm"
+        return f"joint 4 should be at {at} mm, but is at {is_at} mm"
     now, end, got = (float(q[:3].sum()) / deg for q in (q0, wanted, yours))
     turns, yours_turns = apart(end - now, got - now)
     third, yours_third = apart(wanted[2] / deg, yours[2] / deg)
     return (
-        f"the tool stands at {now:.1f}°; it should turn by {turns}°, and then stands at "
-        f"{end:.1f}°, with joint 3 at {third}°; yours turns it by {yours_turns}°, with joint 3 at "
-        f"{yours_third}°"
+        f"the tool stands at {now:.1f}°. It should turn by {turns}°, to {end:.1f}°, with joint 3 "
+        f"at {third}°. Yours turns it by {yours_turns}°, with joint 3 at {yours_third}°"
     )
 
 

@@ -4,82 +4,110 @@ from typing import Any
 
 import numpy as np
 
-from robokin import SCARA, deg, mm
+from robokin import deg, mm
 from robokin.course.forms import truth
 
-from .shared import HIGH, LOW, MINUS, Floats
+from .shared import MINUS, Floats
+
+Case = tuple[Floats, Floats, Any]  # q, limits as in the data sheet, which joints are lengths
+
+# the SCARA of this lab, one with its stroke as joint 3, and a gantry
+SHEETS: tuple[tuple[list[list[float]], list[bool], list[float]], ...] = (
+    ([[-140, 140], [-150, 150], [-400, 400], [0, 180]], [False] * 3 + [True], [6, 7, 11, 100]),
+    ([[-130, 130], [-145, 145], [0, 200], [-360, 360]], [False, False, True, False], [6, 7, 60, 5]),
+    ([[0, 700], [50, 500], [-300, 0], [-180, 180]], [True] * 3 + [False], [400, 90, -120, 5]),
+)
 
 
-def cases(rng: np.random.Generator) -> list[tuple[Floats]]:
+def ends(limits: Floats, lengths: Any) -> Floats:
+    """The lower and the upper limits (2, 4), in rad and m."""
+    return limits.T * np.where(lengths, mm, deg)
+
+
+def cases(rng: np.random.Generator) -> list[Case]:
     """Motions: limits reached, limits broken, NaN, at the first, a middle and the last sample."""
-    still = np.array([0.1, 0.5, 0.2, 0.1])
+    found = []
+    for sheet in SHEETS:
+        limits, lengths, still = (np.array(x) for x in sheet)
+        rest = still * np.where(lengths, mm, deg)
+        motions = _motions(rest, *ends(limits, lengths), lengths, rng)
+        found += [(q, limits.astype(float), lengths) for q in motions]
+    return found
 
-    def one(sample: int, joint: int, value: float, count: int = 25) -> tuple[Floats]:
-        q = np.tile(still, (count, 1))
+
+def _motions(
+    rest: Floats, low: Floats, high: Floats, lengths: Any, rng: np.random.Generator
+) -> list[Floats]:
+    def one(sample: int, joint: int, value: float, count: int = 25) -> Floats:
+        q = np.tile(rest, (count, 1))
         q[sample, joint] = value
-        return (q,)
+        return q
 
-    unit = np.array([deg, deg, deg, mm])
-    found: list[tuple[Floats]] = [(np.tile(still, (3, 1)),)]
-    for joint in (3, 0, 1, 2):
-        for limit, side in ((LOW[joint], -1), (HIGH[joint], 1)):
-            # exact only for the stroke, since converting an angle to degrees rounds it
-            edge = float(limit) if joint == 3 else float(limit) - side * 1e-7
+    unit = np.where(lengths, mm, deg)
+    found = [np.tile(rest, (3, 1))]
+    for joint in np.argsort(~lengths, kind="stable"):  # lengths first
+        for limit, side in ((low[joint], -1), (high[joint], 1)):
+            # exact only at 0, since converting a limit rounds it
+            edge = float(limit) - side * 1e-7 * (limit != 0)
             found += [one(k, joint, edge, count=3) for k in (0, 1, 2)]
             found.append(one(1, joint, float(limit) + side * 2e-6, count=3))
             for past in (0.5, 20.0):
                 value = float(limit + side * past * unit[joint])
                 found += [one(0, joint, value, 3), one(13, joint, value), one(24, joint, value)]
-    found += [one(1, 1, 145 * deg, 3), one(1, 0, 145 * deg, 3), one(1, 2, 300 * deg, 3)]
-    # a whole turn further, which only joint 3 may be
-    found += [one(1, 0, 370 * deg, 3), one(1, 1, -350 * deg, 3)]
+    last, turns = int(np.flatnonzero(lengths)[-1]), np.flatnonzero(~lengths)
+    for joint in turns:  # whole turns further
+        found += [one(1, joint, rest[joint] + side * 4 * np.pi, 3) for side in (-1, 1)]
     for sample in (10, 12):  # one is a fifth or tenth sample, the other a third one
-        found += [one(sample, 3, 0.2), one(sample, 0, 145 * deg)]
-    found += [one(1, 3, 5.0, 3), one(1, 3, 100.0, 3)]  # a stroke in mm
-    # past every limit that may be confused with it
-    found += [one(1, 3, 200.0, 3), one(1, 3, -0.25, 3)]
-    found += [one(1, 2, float(HIGH[2]) + 0.8 * deg, 3)]  # rounded to a degree, or one too far
+        found += [one(sample, last, high[last] + 20 * mm)]
+        found += [one(sample, turns[0], high[turns[0]] + 5 * deg)]
+    # a length in mm; past every limit that may be confused with it
+    found += [one(1, last, value, 3) for value in (5.0, 100.0, 900.0, -0.8)]
+    found.append(one(1, turns[0], 500.0, 3))  # past every limit in degrees
+    found += [one(1, turns[-1], float(high[turns[-1]]) + 0.8 * deg, 3)]  # rounded to a degree
     for row in (0, 13, 24):
-        q = np.tile(still, (25, 1))
+        q = np.tile(rest, (25, 1))
         q[row] = np.nan
-        found.append((q,))
-    found.append((np.full((3, 4), np.nan),))
-    found.append((np.tile(HIGH + 0.1, (3, 1)),))  # no joint is inside
-    for _ in range(12):
-        ends = rng.uniform(LOW, HIGH, (2, 4))
-        found.append((np.linspace(ends[0], ends[1], 25),))  # inside
-        beyond = ends + np.eye(4)[rng.integers(4)] * (HIGH - LOW) * 1.1
-        found.append((np.linspace(ends[0], beyond[1], 25),))
+        found.append(q)
+    found.append(np.full((3, 4), np.nan))
+    found.append(np.tile(high + 0.1, (3, 1)))  # no joint is inside
+    for _ in range(6):
+        first, then = rng.uniform(low, high, (2, 4))
+        found.append(np.linspace(first, then, 25))  # inside
+        beyond = then + np.eye(4)[rng.integers(4)] * (high - low) * 1.1
+        found.append(np.linspace(first, beyond, 25))
     return found
 
 
-def form(result: Any, case: tuple[Floats]) -> bool:
+def form(result: Any, case: Case) -> bool:
     return truth(result, "for the whole motion")
 
 
-def law(case: tuple[Floats], yours: bool, wanted: bool) -> str | None:
-    (q,) = case
+def law(case: Case, yours: bool, wanted: bool) -> str | None:
+    q, limits, lengths = case
     if yours == wanted:
         return None
+    low, high = ends(limits, lengths)
     if wanted:
         says = "every value of this motion keeps its limits (the limits included): True is right"
-        sample, joint = divmod(int(np.argmin(np.minimum(q - LOW, HIGH - q))), 4)
+        sample, joint = divmod(int(np.argmin(np.minimum(q - low, high - q))), 4)
         value = float(q[sample, joint])
-        limit = float(min(LOW[joint], HIGH[joint], key=lambda x: abs(x - value)))
+        limit = float(min(low[joint], high[joint], key=lambda x: abs(x - value)))
         if abs(value - limit) > 1e-6:
             return says
         if value == limit:
             return f"{says}; sample {sample} has joint {joint + 1} at its limit"
-        si = "m" if joint == 3 else "rad"
+        si = "m" if lengths[joint] else "rad"
         at = f"sample {sample} has joint {joint + 1} at {value:.7f} {si}, its limit is {limit:.7f}"
         return f"{says}; {at} {si}".translate(MINUS)
-    sample, joint = divmod(int(np.argmax(~((q >= LOW) & (q <= HIGH)))), 4)
+    sample, joint = divmod(int(np.argmax(~((q >= low) & (q <= high)))), 4)
     where = f"sample {sample} of {len(q)} (counted from 0)"
     if np.isnan(q[sample, joint]):
         return f"{where} is a row of NaN, out of reach: False is right"
-    si, size, unit = ("m", mm, " mm") if joint == 3 else ("rad", deg, "°")
-    value, low, high = (x / size for x in (q[sample, joint], LOW[joint], HIGH[joint]))
-    limit, side = (low, "below") if value < low else (high, "above")
+    si, size, unit = ("m", mm, " mm") if lengths[joint] else ("rad", deg, "°")
+    value = q[sample, joint] / size
+    limit, side = limits[joint][1], "above"
+    if value < limits[joint][0]:
+        limit, side = limits[joint][0], "below"
     excess = abs(value - limit)
     digits = 1 if excess > 0.05 else 4 if unit == "°" else 3
     return (
@@ -88,8 +116,9 @@ def law(case: tuple[Floats], yours: bool, wanted: bool) -> str | None:
     ).translate(MINUS)
 
 
-def limits(joint: int, low: float, high: float) -> Floats:
-    """For wrong programs: the limits, with other ones for one joint."""
-    found = SCARA.limits.copy()
-    found[joint - 1] = low, high
-    return found.T
+def untested(limits: Floats, lengths: Any, joints: Any, sides: Any = (0, 1)) -> Floats:
+    """For wrong programs: the limits in rad and m, infinite for these joints and sides."""
+    found = ends(limits, lengths)
+    for side in sides:
+        found[side, joints] = (-np.inf, np.inf)[side]
+    return found

@@ -67,10 +67,10 @@ def form(answer: Any, mine: Given) -> dict[str, float]:
 def faults(answer: Given, mine: Given) -> list[tuple[str, str]]:
     b, duration, most, found = answer["blend"], answer["duration"], mine["acceleration"], []
     if not 0 < b <= 0.5:
-        says = f"A blend is above 0 (that is the sharp corner) and at most 0.5; yours is {b:g}."
+        says = f"A blend is more than 0 (the sharp corner) and at most 0.5. Yours is {b:g}."
         return [("no such blend", says)] * COUNT
     if duration <= 0:
-        return [("no such duration", f"A motion takes time; yours takes {duration:g} s.")] * COUNT
+        return [("no such duration", f"A motion takes time. Yours takes {duration:g} s.")] * COUNT
     deepest = LEVEL - mine["via_z"] - b * lift(mine)
     if deepest > STROKE + 1e-9:  # joints 1 to 3 stay inside for every blend, see `given`
         says = (
@@ -81,8 +81,8 @@ def faults(answer: Given, mine: Given) -> list[tuple[str, str]]:
     passes = gap(mine, b)
     if passes > mine["miss"] * (1 + 1e-6):
         near, allowed = apart(passes / mm, mine["miss"] / mm)
-        says = f"The tool passes via at {near} mm, and {allowed} mm are allowed. "
-        found.append(("too far from via", says + "Less blend comes nearer."))
+        says = f"The tool passes {near} mm from via, and {allowed} mm are allowed. "
+        found.append(("too far from via", says + "Less blend brings it closer."))
     a = sum(over_via(mine)) / (b * duration**2)  # in the parabola's corner, where it is constant
     shortest = float(np.sqrt(sum(over_via(mine)) / b / most))
     needs, allowed = apart(a / mm, most / mm, 2)
@@ -95,7 +95,7 @@ def faults(answer: Given, mine: Given) -> list[tuple[str, str]]:
         name, says = slip(duration / shortest, shortest) or (
             ("too fast", "More time, or more blend, helps.")
             if fast
-            else ("slower than needed", "A shorter duration would do.")
+            else ("slower than needed", "A shorter duration is enough.")
         )
         found.append((name, f"{told}. {says}"))
     return found
@@ -103,10 +103,10 @@ def faults(answer: Given, mine: Given) -> list[tuple[str, str]]:
 
 def slip(ratio: float, shortest: float) -> tuple[str, str] | None:
     """The slip behind a duration that is a known multiple of the shortest one, or None."""
-    unit = "mm for m", "Heights and acceleration have to be in one unit of length."
+    unit = "mm instead of m", "Use the same unit of length for heights and acceleration."
     whole = "The formula's T is the whole duration."
     slips = {
-        shortest: ("the root is forgotten", "The formula has T²: your duration is its square."),
+        shortest: ("the root is forgotten", "The formula gives T². You used it as the duration."),
         1000**0.5: unit,
         1000**-0.5: unit,
         0.5: ("half of the duration", whole),

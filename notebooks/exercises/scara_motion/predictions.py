@@ -72,7 +72,7 @@ def p5() -> Mapping[str, Any]:
     q4 = SCARA.ik(blend(start, via, goal, 0.0, t / (2 * half)))[:, ROW, 3] / mm
     jump = (q4[4] - q4[3] - q4[1] + q4[0]) / 0.1
     guesses = {"sign": -jump, "sizes": -after - before, "less": before + after, "first": before}
-    guesses |= {"mean": jump / 2, "way": -(down + up)}
+    guesses |= {"mean": jump / 2, "metres": jump / 1000}
     told = {"down": down, "up": up, "half": half, "before": before, "after": Shown(after)}
     return {"jump": jump, "right": "after less before"} | guesses | told | {"slower": -after}
 
@@ -95,7 +95,8 @@ def turning(off: float, s: Any) -> Any:
 def p6() -> Mapping[str, Any]:
     right, left = (float(turning(off, 0.5)) / deg for off in (-OFF, OFF))
     apart = abs(right - left)
-    guesses = {"none": 0.0, "starts": 2 * OFF, "mean": OFF, "one": apart / 2, "minus": -apart}
+    guesses = {"none": 0.0, "starts": 2 * OFF, "one": apart / 2, "minus": -apart}
+    guesses["radians"] = apart * deg
     told = {"off": OFF, "whole": 360.0, "to_the_right": Shown(right), "to_the_left": Shown(left)}
     return {"apart": apart, "right": "half a turn apart"} | guesses | told
 
@@ -130,6 +131,7 @@ def deepest(b: float) -> float:
 def p8() -> Mapping[str, Any]:
     first, last, factor = deepest(B0), deepest(B1), B1 / B0
     guesses = {"square": first * factor**2, "twice": first * 2, "less": first / factor}
+    guesses["metres"] = last * mm
     told = {"h1": H1, "h2": H2, "b0": B0, "b1": B1, "first": first, "times": factor, "half": 2 * B0}
     return {"last": last, "right": "enlarged"} | guesses | told
 

@@ -54,6 +54,7 @@ import {lineColor, panelWords, shade} from "./panel_words.js";
 
 export const FAINT = 0.28; // opacity of a curve that is not watched
 const SMALL = 60; // px: a lower panel shows only the ends of its scale, and no text
+const INSET = 4; // px between the frame and the outermost ticks, so that no curve lies on the frame
 const PAST = 0.002; // an excess over a limit up to this value is due to rounding
 
 /** The line width for an arm. @type {(arm: number) => number} */
@@ -77,8 +78,9 @@ export function drawPanel(ground, panel, ticks, now) {
     [left, right, top, bottom] = sides,
     {lines} = panel;
   const scales = panel.axes.map(({scale: [low, step, count]}) => {
+    const per = (bottom - top - 2 * INSET) / (step * (count - 1));
     /** @type {Place} */
-    const y = v => bottom - ((bottom - top) * (v - low)) / (step * (count - 1));
+    const y = v => bottom - INSET - per * (v - low);
     return y;
   });
   const ys = lines.map(({axis}) => scales[axis]);
@@ -163,7 +165,7 @@ function drawScales({g, sides: [left, right, top, bottom]}, {axes, lines}, scale
     const joints = [...new Set(lines.filter(line => line.axis === k).map(({joint}) => joint))];
     const color = k && joints.length === 1 ? shade(jointColor(joints[0])) : colors.soft,
       px = k ? right + 6 : left - 6;
-    const apart = (bottom - top) / (count - 1),
+    const apart = (bottom - top - 2 * INSET) / (count - 1),
       every = bottom - top < SMALL ? count - 1 : Math.ceil(14 / apart);
     for (let i = 0; i < count; i += every) {
       const value = low + i * step;
