@@ -2,6 +2,7 @@
 
 try:
     from .charts import bars, curves
+    from .clearance_explorer import clearance_explorer
     from .conveyor import conveyor_player
     from .elbow_explorer import elbow_explorer
     from .ellipsoid import plot_velocity_ellipsoid
@@ -30,6 +31,7 @@ __all__ = [
     "Sketch",
     "animate",
     "bars",
+    "clearance_explorer",
     "conveyor_player",
     "curves",
     "elbow_explorer",

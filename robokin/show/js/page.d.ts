@@ -12,6 +12,7 @@ export type PageExplorer =
   | MotionPage
   | RotationPage
   | SingularityPage
+  | ClearancePage
   | PlanPage
   | TourPage;
 
@@ -435,6 +436,26 @@ export interface SingularityPage {
   beside: number[];
   row: number;
   speed: number;
+}
+
+export interface ClearancePage {
+  title: string;
+  summary: string;
+  alt: string;
+  meant: string;
+  unit: PageUnit;
+  scene: PageScene;
+  controls: Control[];
+  words: Record<string, string>;
+  code: string;
+  arm: ArmData;
+  units: PageUnit[];
+  kind: "clearance";
+  q: number[];
+  target: PagePose;
+  vias: number[][];
+  obstacle: number[];
+  distance: number;
 }
 
 export interface RotationPage {
