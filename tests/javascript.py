@@ -102,7 +102,10 @@ def page_types():
     ]
     for name, kind in ALIASES.items():
         line = f"export type {name} = {_typed(kind, alias=False)};"
-        parts += ["", line if len(line) <= 100 else line.replace(" = ", " =\n  ")]
+        broken = line.replace(" = ", " =\n  ")
+        if max(map(len, broken.splitlines())) > 100:
+            broken = line.replace(" | ", "\n  | ").replace(" = ", " =\n  | ")
+        parts += ["", line if len(line) <= 100 else broken]
     for name, table in tables.items():
         parts += ["", f"export interface {name} {{"]
         for key, kind in get_type_hints(table).items():

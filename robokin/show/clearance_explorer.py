@@ -107,7 +107,8 @@ def clearance_explorer(
 
 def _vias(via: ArrayLike) -> Floats:
     """The via points (k, 2)."""
-    points = floats(via, "via").reshape(0, 2) if np.size(via) == 0 else floats(via, "via", 2)
+    points = floats(via, "via")
+    points = floats(points, "via", 2) if points.size else np.empty((0, 2))
     if points.ndim != 2 or len(points) > MOST:
         raise ValueError(f"via: wanted at most {MOST} points (k, 2), got shape {points.shape}")
     return points

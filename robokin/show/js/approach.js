@@ -24,7 +24,7 @@ import {clamp, distance2} from "./rows.js";
 
 const SAMPLES = 240,
   GOLDEN = (Math.sqrt(5) - 1) / 2,
-  SAME = 1e-6, // m: of two levers that are as near as each other, the first one is named
+  SAME = 2e-6, // m: of two levers that are as near as each other, the first one is named
   ROUNDS = 40; // of the golden section, which leaves 1e-8 of its interval
 
 /**

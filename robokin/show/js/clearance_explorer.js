@@ -1,5 +1,5 @@
-// The explorer of a clearance: the reader drags an obstacle H and the gripper's via points, and sees
-// how near the levers come to H during the motion. All text and the arm data come from Python
+// The explorer of a clearance: the reader drags an obstacle H and the gripper's via points, and
+// sees how near the levers come to H during the motion. All text and the arm data come from Python
 // (page.py: ClearancePage).
 
 import {approachOf, motionOf, nearestAt, postureAt} from "./approach.js";
@@ -26,8 +26,8 @@ import {degrees, plain} from "./turns.js";
 
 /** @typedef {ClearancePage & {arm: ThreeLeverArm}} ClearanceExplorer */
 /**
- * The reader's settings. `share` is the fraction of the motion at which the arm is drawn; null: where
- * it is nearest to H.
+ * The reader's settings. `share` is the fraction of the motion at which the arm is drawn; null:
+ * where it is nearest to H.
  * @typedef {{obstacle: Point, vias: Point[], share: ?number}} State
  */
 /**

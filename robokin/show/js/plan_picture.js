@@ -67,7 +67,7 @@ const drawBelow =
 const mean = (points, k) => points.reduce((sum, p) => sum + p[k], 0) / points.length;
 
 /**
- * Draws the line from the obstacle to the nearest place of the levers of the levers from the obstacle.
+ * Draws the line from the obstacle to the nearest place of the levers.
  * @type {(shown: Shown, state: State) => Draw}
  */
 const drawAbove =
