@@ -651,10 +651,13 @@ def test_answers_to_the_questions_about_the_views_of_lab_10_are_true():
     pair, kept = said_pair("able", r"K2 = (.*?) m and K3 = (.*?) m, .* keep (\S+) mm")
     assert least_distance(through(*pair), H) / mm == pytest.approx(kept, abs=0.06)
     H = np.array([1.5, 1.0])
-    (near,) = numbers(r"AK comes as near as (\S+) mm, before the", flat("10", "via-rule"))
+    text = r"AK comes as near as (\S+) mm before the gripper reaches K2, and (\S+) mm after K3"
+    near = numbers(text, flat("10", "via-rule"))
     rule = via_path(ARM, START_10, K1_10, H)
-    assert least_distance(rule[:2], H) / mm == pytest.approx(near, abs=0.06)
-    assert least_distance(rule, H) == pytest.approx(near * mm, abs=1e-4)
+    found = [least_distance(rule[k : k + 2], H) / mm for k in range(3)]
+    assert [found[0], found[2]] == pytest.approx(near, abs=0.06) and max(near) * mm < DISTANCE
+    on_AK = [lever_distance(q, H, slice(2, 3)) for q in rule]
+    assert on_AK == pytest.approx([lever_distance(q, H) for q in rule])
     pair, kept = said_pair("via-rule", r"K2 = (.*?) m and K3 = (.*?) m, .* keep (\S+) mm")
     assert least_distance(through(*pair), H) / mm == pytest.approx(kept, abs=0.06)
     assert kept * mm > DISTANCE
