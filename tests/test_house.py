@@ -50,6 +50,7 @@ LAYERS = {
     "robokin.motion.recording": (*BASE, "robokin.arms", "robokin.motion.derivatives"),
     "robokin.jobs": KINEMATICS,
     "robokin.show": KINEMATICS,
+    "robokin.show.clearance_explorer": (*KINEMATICS, "robokin.jobs", "robokin.show"),
     "robokin.show.conveyor": (*KINEMATICS, "robokin.jobs", "robokin.show"),
     "robokin.show.explorer": ("robokin",),
     "robokin.show.plan_explorer": (*KINEMATICS, "robokin.jobs", "robokin.show"),

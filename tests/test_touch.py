@@ -6,6 +6,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+import test_clearance_explorer
 import test_explorers
 import test_live
 import test_predictions
@@ -61,6 +62,7 @@ VIEWS = EXPLORERS | {
     "tour": lambda: tour_explorer(test_tour_explorer.CIRCLE),
     "rotation": lambda: rotation_explorer(1.2, (0.6, 0, 0.8), (0.1, 0, 0)),
     "singularity": test_singularity_explorer.view,
+    "clearance": test_clearance_explorer.view,
     "question": question,
 }
 each_view = pytest.mark.parametrize("kind", VIEWS)

@@ -1,12 +1,21 @@
 """Statements that a second group of readers refuted, checked by a second calculation."""
 
 import re
+from itertools import pairwise
 from math import comb
 
 import numpy as np
 import pytest
 from conftest import NOTEBOOKS
-from test_true_statements_b import ARM, DISTANCE, asked, cells, direct, lever_distance
+from test_true_statements_b import (
+    ARM,
+    DISTANCE,
+    asked,
+    cells,
+    direct,
+    least_distance,
+    lever_distance,
+)
 from test_true_statements_b import run as run_cells
 from test_true_statements_c import flat, numbers, shown
 
@@ -25,6 +34,7 @@ from robokin import (
     spbu_arm,
 )
 from robokin.course import book
+from robokin.jobs.obstacles import in_quadrilateral, plan, via_path
 from robokin.jobs.steppers import Stepper, ramp, station_postures
 from robokin.jobs.visit_collect import Task, TaskError
 
@@ -32,6 +42,7 @@ LINE = book.lab("puma560_branches").module("predictions")
 LOADER = loader_arm(450 * mm, 300 * mm)
 LEVERS = book.lab("three_levers").module("predictions")
 sampled_tasks = book.lab("obstacle_avoidance").module("predictions")["sampled_tasks"]
+START_10, K1_10 = ARM.family((1.2, 1.7), 118 * deg), (1.9, 0.3)  # of lab 10
 
 
 def about(axis, angle):
@@ -583,7 +594,7 @@ def test_least_movement_per_task_is_the_same_in_both_replies():
 
 def test_areas_and_curves_are_as_stated():
     assert "the two areas, one of BA and one of AK" in flat("10", "region-look")
-    assert "so A and K run on curves." in flat("10", "sweep-look")
+    assert "so A and K move on curves." in flat("10", "sweep")
     path = direct(np.array([150, 120, 120]) * deg)
     s = np.linspace(0, 1, 4001)[:, None]
     points = ARM.points(path[0] + s * (path[1] - path[0]))
@@ -593,7 +604,7 @@ def test_areas_and_curves_are_as_stated():
         x, y = (place - place[0]).T
         off.append(abs(chord[0] * y - chord[1] * x).max() / np.hypot(*chord))
     _, options, _ = asked("obstacle_avoidance.p2")
-    assert numbers(r"curves of A and K bulge by (\S+) and (\S+) m:", options[1].reason) == [
+    assert numbers(r"curves of A and K bulge by (\S+) and (\S+) m,", options[1].reason) == [
         pytest.approx(each, abs=0.005) for each in off
     ]
     A = points[:, 3]
@@ -601,6 +612,89 @@ def test_areas_and_curves_are_as_stated():
     middle = np.linalg.solve(2 * np.array([b - a, c - a]), [b @ b - a @ a, c @ c - a @ a])
     far = np.hypot(*(A - middle).T)
     assert np.ptp(far) > 1e-3, "the curve should not be an arc of a circle"
+
+
+def through(*vias):
+    path = [START_10]
+    for place in (*vias, K1_10):
+        path.append(ARM.least(place, path[-1])[0])
+    return path
+
+
+def gripper_distance(path, H):
+    s = np.linspace(0, 1, 20001)[:, None]
+    ways = np.concatenate([ARM.points(a + s * (b - a))[:, 3] for a, b in pairwise(path)])
+    return np.hypot(*(ways - H).T).min()
+
+
+def test_answers_to_the_questions_about_the_views_of_lab_10_are_true():
+    H = np.array([1.2, 1.3])
+    (far,) = numbers(
+        r"stays (\S+) mm away from the obstacle H\. Its levers do not", flat("10", "title")
+    )
+    assert "H, [(1, 1.3), (1, 1.2)])" in cells("10")["opening"]
+    path = through((1, 1.3), (1, 1.2))
+    assert gripper_distance(path, H) / mm == pytest.approx(far, abs=0.06)
+    assert far * mm > DISTANCE > least_distance(path, H) + 0.1
+    pair, kept = said_pair("able", r"K2 = (.*?) m and K3 = (.*?) m, .* keep (\S+) mm")
+    assert least_distance(through(*pair), H) / mm == pytest.approx(kept, abs=0.06)
+    H = np.array([1.5, 1.0])
+    text = r"AK comes as near as (\S+) mm before the gripper reaches K2, and (\S+) mm after K3"
+    near = numbers(text, flat("10", "via-rule"))
+    rule = via_path(ARM, START_10, K1_10, H)
+    found = [least_distance(rule[k : k + 2], H) / mm for k in range(3)]
+    assert [found[0], found[2]] == pytest.approx(near, abs=0.06) and max(near) * mm < DISTANCE
+    on_AK = [lever_distance(q, H, slice(2, 3)) for q in rule]
+    assert on_AK == pytest.approx([lever_distance(q, H) for q in rule])
+    pair, kept = said_pair("via-rule", r"K2 = (.*?) m and K3 = (.*?) m, .* keep (\S+) mm")
+    assert least_distance(through(*pair), H) / mm == pytest.approx(kept, abs=0.06)
+    assert kept * mm > DISTANCE
+
+
+def said_pair(cell, pattern):
+    one, two, kept = re.search(pattern, flat("10", cell)).groups()
+    return [eval(one), eval(two)], float(kept)
+
+
+def test_swept_place_and_the_valley_between_samples_are_as_stated():
+    (place,) = re.findall(r"\((.*?)\) m, right of the line from K to K1", flat("10", "sweep-look"))
+    H = np.array(eval(place))
+    a, b = through()
+    across = np.cross([*(np.array(K1_10) - (1.2, 1.7)), 0], [*(H - (1.2, 1.7)), 0])[2]
+    assert across > 0, "seen from K towards K1, it is on the left, outside the quadrilateral"
+    assert in_quadrilateral(ARM, a, b, H)["AK"] == 0
+    s = np.linspace(0, 1, 20001)[:, None]
+    assert lever_distance(a + s * (b - a), H, slice(2, 3)).min() < 1e-3
+    path = direct(np.array([150, 120, 120]) * deg)
+    d = lever_distance(path[0] + s * (path[1] - path[0]), np.array([1.7, 1.0]))
+    near = s[d < DISTANCE, 0]
+    assert (np.diff(near) < 1e-3).all(), "there is one valley"
+    told = numbers(r"From (\d+) to (\d+) %, a seventh", flat("10", "whole-bound"))
+    assert told == [round(100 * near[0]), round(100 * near[-1])]
+    assert np.ptp(near) == pytest.approx(1 / 7, abs=0.01)
+    hand = re.search(r"slider to (.*?) and 100 %", flat("10", "whole-hand"))[1]
+    shares = [float(x) / 100 for x in hand.split(", ")] + [1.0]
+    seen = [lever_distance(path[0] + x * (path[1] - path[0]), np.array([1.7, 1.0])) for x in shares]
+    assert min(seen) > DISTANCE, "the program sees that it is too near"
+
+
+def test_plan_changes_its_kind_at_the_stated_places():
+    text = flat("10", "cube-text")
+    told = numbers(
+        r"Down to (\S+) m the direct way is clear\. From (\S+) to (\S+) m via points suffice\. "
+        r"From (\S+) to (\S+) m a search",
+        text,
+    )
+    ways = {}
+    for x in np.arange(20, -1, -1) / 10:
+        found = plan(ARM, START_10, K1_10, (x, 1.3))
+        ways.setdefault(found.way, []).append(x)
+    assert [
+        ways["direct"][-1],
+        *(ways[k][i] for k in ("via points", "search") for i in (0, -1)),
+    ] == (told)
+    assert ways["none"] == [0.0] and ways["direct"][0] == 2.0
+    assert lever_distance(START_10, np.array([0, 1.3])) < DISTANCE
 
 
 def test_sampled_tasks_and_the_larger_circle_keep_the_distance_as_stated():
@@ -619,11 +713,11 @@ def test_sampled_tasks_and_the_larger_circle_keep_the_distance_as_stated():
 
 
 def test_plan_tries_more_circles_than_control():
-    assert "It tries as `control` does, on more circles, the via points" in flat("10", "deeper-two")
+    assert "as `control` does, on more circles, beginning with the via" in flat("10", "deeper-two")
     assert "for r in (distance, 0.16, 0.20, 0.25)" in cells("10")["control-code"]
     assert "r = 180 mm" in shown("10", "deeper-two-code")
-    assert "Six places side by side." in flat("10", "deeper-moving")
-    assert "a coarser search finds a way" in flat("10", "able")
+    assert "six places side by side." in flat("10", "deeper-moving")
+    assert "*Play* shows a coarse search." in flat("10", "cube")
 
 
 # --- Labs 11 and 12 -------------------------------------------------------------------------------

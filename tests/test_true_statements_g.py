@@ -523,8 +523,6 @@ def test_plans_for_80_mm_wide_levers_exist_but_one_needs_a_larger_circle():
             run_cells(
                 "10",
                 "setup",
-                "drawing-tools",
-                "whole-code",
                 "control-code",
                 "deeper-width",
                 changed=[("width = 0.08", f"width = {width}")],

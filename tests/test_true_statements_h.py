@@ -256,7 +256,7 @@ def test_sweeps_end_as_far_above_the_least_sum_as_the_alt_text_says():
 
 def test_plot_includes_the_time_at_which_the_waiting_arm_starts():
     """The speed of the waiting arm jumps when it starts."""
-    made = run_cells("10", "setup", "deeper-while-code", "deeper-while-data")
+    made = run_cells("10", "setup", "cube-setup", "deeper-while-code", "deeper-while-data")
     when = made["when"]
     assert np.isin(when, made["seconds"]).all(), "the samples do not contain the kinks"
 

@@ -384,6 +384,10 @@ CALLS = {
         figures.plan_explorer,
         dict(arm=LEVERS, posture=FOLDED, target=POINT, obstacle=OBSTACLE),
     ),
+    "clearance_explorer": (
+        figures.clearance_explorer,
+        dict(arm=LEVERS, posture=FOLDED, target=POINT, obstacle=OBSTACLE, via=POINT[None]),
+    ),
     "conveyor_player": (
         figures.conveyor_player,
         dict(v=0.2, spreads=np.array([0.0, 0.5, 1.0]), arms=3),

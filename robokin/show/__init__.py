@@ -2,6 +2,7 @@
 
 try:
     from .charts import bars, curves
+    from .clearance_explorer import clearance_explorer
     from .conveyor import conveyor_player
     from .crossing_explorer import crossing_explorer
     from .elbow_explorer import elbow_explorer
@@ -31,6 +32,7 @@ __all__ = [
     "Sketch",
     "animate",
     "bars",
+    "clearance_explorer",
     "conveyor_player",
     "crossing_explorer",
     "curves",

@@ -210,6 +210,20 @@ class SingularityPage(ArmPage):
     speed: float
 
 
+class ClearancePage(ArmPage):
+    """The data of the clearance explorer: the start posture q, the target, the places of the
+    gripper's via points and of the obstacle, and the distance in metres that the levers should
+    keep.
+    """
+
+    kind: Literal["clearance"]
+    q: list[float]
+    target: PagePose
+    vias: list[list[float]]
+    obstacle: list[float]
+    distance: float
+
+
 class RotationPage(ExplorerPage):
     """The data of the rotation explorer: two perpendicular unit vectors (the axis, and the one
     across it towards v), the length of v in metres, the opening angles in radians (of the rotation,
@@ -266,6 +280,7 @@ PageExplorer: TypeAlias = (
     | MotionPage
     | RotationPage
     | SingularityPage
+    | ClearancePage
     | PlanPage
     | TourPage
 )

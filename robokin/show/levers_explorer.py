@@ -129,14 +129,7 @@ def _page(
         f"{'arm = three_lever(({levers}))' if unequal else '# arm = three_lever(...)'}\n"
         f"q = arm.family(({{x}}{unit}, {{y}}{unit}), {{alpha}} * deg)",
     )
-    what = "|OB \N{MINUS SIGN} BA| + AK" if unequal else "one lever"
-    page["words"] |= dict(SAYS) | {
-        "tooNear": f"{NOWHERE}it lies {{distance}} from the base, not farther than {what} "
-        "({inner}).",
-        "tooFar": f"{NOWHERE}it lies {{distance}} from the base, farther than three levers "
-        "({reach}).",
-        "pastGamma": f"{NOWHERE}every posture for it has gamma outside 0° to 180°.",
-    }
+    page["words"] |= dict(SAYS) | reasons(arm)
     return {
         "kind": "levers",
         **page,
@@ -148,6 +141,19 @@ def _page(
             "terms": list(terms),
             "dashes": DASHES[: len(terms)],
         },
+    }
+
+
+def reasons(arm: ThreeLeverArm) -> dict[str, str]:
+    """The sentences of a page about a point that is out of reach, as in `out_of_reach`."""
+    unequal = len(set(arm.geometry.levers)) > 1
+    what = "|OB \N{MINUS SIGN} BA| + AK" if unequal else "one lever"
+    return {
+        "tooNear": f"{NOWHERE}it lies {{distance}} from the base, not farther than {what} "
+        "({inner}).",
+        "tooFar": f"{NOWHERE}it lies {{distance}} from the base, farther than three levers "
+        "({reach}).",
+        "pastGamma": f"{NOWHERE}every posture for it has gamma outside 0° to 180°.",
     }
 
 

@@ -37,6 +37,7 @@ from robokin import (
 )
 from robokin.show import (
     animate,
+    clearance_explorer,
     joint_explorer,
     motion_explorer,
     movement_explorer,
@@ -216,6 +217,12 @@ async def ours(path, folder):
         "singularity": (
             singularity_explorer(IRB140, np.zeros(6), (0, 1, 1)),
             "[data-handle=tool]",
+        ),
+        "clearance": (
+            clearance_explorer(
+                three_lever(1), [1.9, 2.2, 2], (1.9, 0.3), (1.2, 1.3), [(0.7, 1.8), (1.0, 1.2)]
+            ),
+            "[data-handle=K2]",
         ),
         "motion, 241 samples": (motion_explorer(IRB140, start, via, goal), "[data-handle=via]"),
     }

@@ -147,7 +147,7 @@ def faults(path: Floats, given: Mapping[str, Any]) -> list[tuple[str, str]]:
     found: list[tuple[str, str]] = []
     if abs(path[0] - start).max() > 1e-4:
         stands, got = apart(given["start"], path[0] / deg)
-        says = f"The path begins at ({got})°, the arm stands at ({stands})°."
+        says = f"The path begins at ({got})°, but the arm stands at ({stands})°."
         if abs(path[-1] - start).max() <= 1e-4:
             says += " There the path ends."
         elif abs(path[0, ::-1] - start).max() <= 1e-4:
@@ -163,7 +163,7 @@ def faults(path: Floats, given: Mapping[str, Any]) -> list[tuple[str, str]]:
         name = ("gamma", "beta", "alpha")[j]
         limit = 0.0 if path[i, j] < 0 else 180.0
         is_at = apart(path[i, j] / deg, limit)[0]
-        says = f"Posture {i + 1}: {name} is {is_at}°, allowed are 0 to 180°."
+        says = f"Posture {i + 1}: {name} is {is_at}°, but it must be between 0 and 180°."
         found.append(("past a limit", says))
     bar = points_of(given["bar"])
     found += too_near(path, bar[[0, -1]], "the ends of the bar", given["distance"])
@@ -171,7 +171,7 @@ def faults(path: Floats, given: Mapping[str, Any]) -> list[tuple[str, str]]:
     S = float(abs(np.diff(path, axis=0)).sum())
     if S > given["most"] + 1e-9:
         moved, most = apart(S / deg, given["most"] / deg)
-        says = f"S is {moved}°, at most {most}° are allowed."
+        says = f"S is {moved}°, but you may spend at most {most}°."
         found.append(("too much movement", says))
     return found
 
@@ -191,7 +191,7 @@ def too_near(path: Floats, places: Floats, name: str, distance: float) -> list[t
     corners = min(float(distances(path, place).min()) for place in places)
     says = (
         f"Between postures {part + 1} and {part + 2} lever {('OB', 'BA', 'AK')[lever]} comes as "
-        f"near as {near} mm to {name}; wanted are {wanted} mm."
+        f"near as {near} mm to {name}; the task asks for {wanted} mm."
     )
     if corners >= distance:
         says += f" Every posture of the path keeps {corners / mm:.0f} mm: look at the way between."

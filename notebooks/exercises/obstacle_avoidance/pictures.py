@@ -38,7 +38,7 @@ def p1_view() -> Any:
     fig = figure(
         "The same quadrilateral four times: as drawn, turned by a quarter, mirrored, and upside "
         "down. The obstacle is in its middle each time, and the test finds it in the first only.",
-        height=2.9,
+        height=3.2,
     )
     drawn = np.array([(-0.5, 0.4), (0.45, 0.6), (0.55, -0.6), (-0.4, -0.5)])
     shapes = {
@@ -56,7 +56,9 @@ def p1_view() -> Any:
         ax.plot(0, 0, "X", color=INK, ms=9)
         ax.text(0, -0.3, "found" if says else "missed", ha="center")
         ax.set(aspect="equal", title=name, xticks=[], yticks=[], xlim=(-0.8, 0.8), ylim=(-0.8, 0.8))
-    fig.axes[0].legend(loc="upper left", fontsize=8)
+        ax.set(xlabel="x", ylabel="y")
+    fig.axes[0].legend(loc="upper left", fontsize=9)
+    fig.suptitle("The test finds H in one of four positions of the drawing")
     fig.tight_layout()
     return fig
 

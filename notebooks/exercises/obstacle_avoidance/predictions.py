@@ -35,7 +35,7 @@ def p1() -> dict[str, Any]:
         H = rng.uniform(corners.min(axis=0), corners.max(axis=0))
         if count(corners, H) % 2 == 1:
             found.append(drawing(corners, H))
-    own = []  # the result of the test for each H inside, in the sample of section 7
+    own = []  # the result of the test for each H inside, in the sample of `sampled_tasks`
     for start, target, H in sampled_tasks():
         (A, K_), (A1, K1_) = ARM.points(direct(start, target))[:, 2:]
         if count([A, K_, K1_, A1], H) % 2 == 1:
@@ -98,7 +98,7 @@ def p3() -> dict[str, Any]:
         "middle": float(np.hypot(*(H - (P + Q) / 2)) / mm),
         "along": (H[0] - Q[0]) / mm,
         "sum": float(abs(H - Q).sum() / mm),
-        "square": float(((H - Q) ** 2).sum() / mm),
+        "metres": float(np.hypot(*(H - Q))),
     }
     away = float(np.hypot(*(H - [np.clip(H[0], 0, 1), 0])) / mm)
     return guesses | {"x": H[0], "y": H[1], "right": nearest(guesses, away)}
@@ -120,7 +120,7 @@ def p4() -> dict[str, Any]:
 
 
 PASSED = np.array([1.0, 1.5])  # m: the obstacle of p5
-ROUND = np.array([1.2, 1.3])  # m: the obstacle of section 6
+ROUND = np.array([1.2, 1.3])  # m: the obstacle of the opening view and of the wave
 
 
 @cache
@@ -141,7 +141,7 @@ def p5() -> dict[str, Any]:
 
 @cache
 def p6() -> dict[str, Any]:
-    """The wave of section 6, and the path that it finds."""
+    """The wave of the lab, and the path that it finds."""
     size = 10 * deg
     angles = np.arange(19) * size
     cube = np.stack(np.meshgrid(angles, angles, angles, indexing="ij"), axis=-1)
@@ -182,7 +182,7 @@ LARGER = 0.25
 
 
 def sampled_tasks(many: int = TASKS) -> list[tuple[Floats, Floats, Floats]]:
-    """The sample of section 7: start, target and an obstacle that lever AK touches somewhere on the
+    """The sample of the lab: start, target and an obstacle that lever AK touches somewhere on the
     direct path; start, target and base are more than L/7 away from it.
     """
     rng = np.random.default_rng(33)

@@ -2,11 +2,13 @@
 // does not scroll the page, the keyboard can reach it, and a screen reader can name it.
 
 import {cross, dot, plus} from "./kinematics.js";
+import {number} from "./canvas.js";
 import {handleChooser, large} from "./chooser.js";
 import {element, control} from "./elements.js";
 
 /** @import {Box, Color, Pixel, Point} from "./canvas.js" */
 /** @import {Camera} from "./camera.js" */
+/** @import {Unit} from "./page.js" */
 
 /**
  * The distance in metres between a thing and the arrows and arcs that move it, for a camera. In
@@ -269,4 +271,34 @@ export function squareTo(axis) {
     length = Math.sqrt(dot(a, a));
   const first = a.map(x => x / length);
   return [first, cross(axis, first)];
+}
+
+/**
+ * The handle of a point in the plane z = 0, with a letter on it.
+ * @param {{letter: string, name: string, color: Color, unit: Unit, step: number}} look  `step` in
+ *   metres for an arrow key, ten times as far with Shift
+ * @param {() => Point} at
+ * @param {(place: Point) => void} take
+ * @returns {Handle}
+ */
+export function letterHandle({letter, name, color, unit, step}, at, take) {
+  const home = [...at()];
+  return {
+    id: letter,
+    name,
+    look: "rk-mark",
+    mark: letter,
+    color,
+    at,
+    value() {
+      const [x, y] = at().map(each => number(each / unit.size, 3));
+      return `${x}, ${y} ${unit.name}`;
+    },
+    grab(view) {
+      const to = inScreen(view, at());
+      return (dx, dy) => take([...to(dx, dy).slice(0, 2), 0]);
+    },
+    step: (right, up, big) => take(plus(at(), [right, up, 0], big ? 10 * step : step)),
+    home: () => take(home),
+  };
 }

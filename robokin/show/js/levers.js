@@ -4,6 +4,7 @@
 // so that both agree to the last bit. Math.hypot, ** and Math.round differ from NumPy and are not
 // used.
 
+import {fill, inWords} from "./blanks.js";
 import {clamp, distance2, leastTravel, nowhere} from "./rows.js";
 
 /** @import {ThreeLeverInverse, Tolerances} from "./page.js" */
@@ -306,3 +307,17 @@ export function kinks(arm, point, previous) {
 }
 // rad: an angle that has changed by less than this has kept its value
 export const KEPT = 1e-6;
+
+/**
+ * Why no posture reaches a point, as `out_of_reach` of planar.py.
+ * @param {Record<string, string>} says
+ * @param {ThreeLeverArm} arm
+ * @param {number[]} place
+ */
+export function outside(says, {geometry}, [x, y]) {
+  const KO = distance2(x, y),
+    distance = inWords(KO);
+  if (KO <= geometry.inner) return fill(says.tooNear, {distance, inner: inWords(geometry.inner)});
+  if (KO > geometry.reach) return fill(says.tooFar, {distance, reach: inWords(geometry.reach)});
+  return says.pastGamma;
+}

@@ -2,15 +2,14 @@
 // point, chooses the free angle on the curve of its cost or at the joint, and sets the lengths of
 // levers with sliders. All text and the arm data come from Python (explorer_page.py: LeversPage).
 
-import {alpha_range, family, KEPT, kinks, least, withLevers} from "./levers.js";
+import {alpha_range, family, KEPT, kinks, least, outside, withLevers} from "./levers.js";
 import {drawCosts, total} from "./levers_curve.js";
 import {alphaHandle, pointHandle} from "./levers_handles.js";
-import {fill, inWords} from "./blanks.js";
+import {fill} from "./blanks.js";
 import {number} from "./canvas.js";
 import {copyButton} from "./copy.js";
 import {scrubbing} from "./controls.js";
 import {element, waiting} from "./elements.js";
-import {distance2} from "./rows.js";
 import {slider, stageOf, wordButton} from "./stage.js";
 import {degrees, inCode, lengths, plain, radians} from "./turns.js";
 import {point} from "./mark.js";
@@ -84,7 +83,7 @@ function leversExplorer(stage, data) {
     () => {
       costs = costsOf(state);
       sliders.tell();
-      const text = costs ? told(data, state, costs) : outside(data, state);
+      const text = costs ? told(data, state, costs) : outside(says, state.arm, state.place);
       stage.say(text);
       scene?.setAttribute("aria-label", `${data.title}. ${text}`);
       canvas.setAttribute("aria-label", costs ? heard(data, costs) : text);
@@ -251,19 +250,6 @@ function heard({words: says, curve}, {low, high, kinks, best, fewest}) {
     fill(says.curveSays, {...ends, least: inDegrees(total(fewest)), best: inDegrees(best[2])}),
     ...(curve.terms.length ? places : []),
   ].join(" ");
-}
-
-/**
- * Why no posture reaches the point, as `out_of_reach` of planar.py.
- * @param {LeversExplorer} data
- * @param {State} state
- */
-function outside({words: says}, {arm: {geometry}, place: [x, y]}) {
-  const KO = distance2(x, y),
-    distance = inWords(KO);
-  if (KO <= geometry.inner) return fill(says.tooNear, {distance, inner: inWords(geometry.inner)});
-  if (KO > geometry.reach) return fill(says.tooFar, {distance, reach: inWords(geometry.reach)});
-  return says.pastGamma;
 }
 
 /**

@@ -14,6 +14,7 @@ export type PageExplorer =
   | MotionPage
   | RotationPage
   | SingularityPage
+  | ClearancePage
   | PlanPage
   | TourPage;
 
@@ -477,6 +478,26 @@ export interface SingularityPage {
   beside: number[];
   row: number;
   speed: number;
+}
+
+export interface ClearancePage {
+  title: string;
+  summary: string;
+  alt: string;
+  meant: string;
+  unit: PageUnit;
+  scene: PageScene;
+  controls: Control[];
+  words: Record<string, string>;
+  code: string;
+  arm: ArmData;
+  units: PageUnit[];
+  kind: "clearance";
+  q: number[];
+  target: PagePose;
+  vias: number[][];
+  obstacle: number[];
+  distance: number;
 }
 
 export interface RotationPage {

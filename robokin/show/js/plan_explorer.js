@@ -3,10 +3,9 @@
 // (plan_explorer.py).
 
 import {fill} from "./blanks.js";
-import {number} from "./canvas.js";
 import {copyButton} from "./copy.js";
 import {control, element, waiting} from "./elements.js";
-import {inScreen} from "./handles.js";
+import {letterHandle} from "./handles.js";
 import {fk, origin} from "./kinematics.js";
 import {least} from "./levers.js";
 import {kernelOf, joinArrays} from "./live.js";
@@ -126,8 +125,8 @@ function planExplorer(stage, root, id, data) {
       times.tell();
       const {words, direct} = now.shown;
       stage.say([state.way ? "" : words, direct?.says || ""].join(" ").trim());
-      stage.scene.things = [state.target, state.obstacle].map(at => point("", at));
-      return [armAt(arm, state, now)];
+      stage.scene.things = thingsOf(state, now.shown);
+      return [{...armAt(arm, state, now), handles: stage.handles.place}];
     },
     [cube.canvas],
     () => {
@@ -136,6 +135,19 @@ function planExplorer(stage, root, id, data) {
     },
   );
 }
+
+/**
+ * Target, obstacle, the via points and the nearest place of a lever, of which the last ones have
+ * labels; the first two have letters on their handles.
+ * @param {State} state
+ * @param {Shown} shown
+ */
+const thingsOf = ({target, obstacle}, {via, nearest: [at, text]}) => [
+  point("", target),
+  point("", obstacle),
+  ...via.map((place, k) => point(`K${k + 2}`, [...place, 0])),
+  point(text, [...at, 0]),
+];
 
 /** @type {(first: Question) => State} */
 const opened = ({posture, target, obstacle, distance, way}) => ({
@@ -261,32 +273,10 @@ function timesOf(stage, {words: says}, now, cube) {
  * @returns {Handle[]}
  */
 function marks({arm, words: says, unit}, state) {
-  /** @type {(name: string, color: Color, at: () => Point, take: (p: Point) => void) => Handle} */
-  const handle = (name, color, at, take) => {
-    const home = [...at()];
-    return {
-      id: name,
-      name: says[name],
-      look: "rk-mark",
-      mark: name,
-      color,
-      at,
-      value() {
-        const [x, y] = at().map(each => number(each / unit.size, 3));
-        return `${x}, ${y} ${unit.name}`;
-      },
-      grab(view) {
-        const to = inScreen(view, at());
-        return (dx, dy) => take([...to(dx, dy).slice(0, 2), 0]);
-      },
-      step(right, up, big) {
-        const by = ((big ? 0.1 : 0.01) * arm.reach) / 3,
-          [x, y] = at();
-        take([x + by * right, y + by * up, 0]);
-      },
-      home: () => take(home),
-    };
-  };
+  const step = (0.01 * arm.reach) / 3;
+  /** @type {(letter: string, color: Color, at: () => Point, take: (p: Point) => void) => Handle} */
+  const handle = (letter, color, at, take) =>
+    letterHandle({letter, name: says[letter], color, unit, step}, at, take);
   /** @type {(key: "obstacle" | "target", name: string, color: Color) => Handle} */
   const point = (key, name, color) =>
     handle(

@@ -38,14 +38,8 @@ const drawBelow =
   (chain, {kept, direct, moments}, state) =>
   (g, {to, scale}) => {
     const postures = moments.map(q => polyline(chain, q));
-    const [x, y] = to(state.obstacle);
-    g.beginPath();
-    g.arc(x, y, state.distance * scale, 0, 2 * Math.PI);
-    g.fillStyle = clear(colors.ghost, 0.25);
-    g.fill();
-    g.strokeStyle = colors.ghost;
-    g.lineWidth = 1;
-    g.stroke();
+    const radius = state.distance * scale;
+    spot(g, to(state.obstacle), radius, clear(colors.ghost, 0.25), colors.ghost, 1);
     /** @type {(points: number[][]) => Pixel[]} */
     const flat = points => points.map(([x, y]) => to([x, y, 0]));
     direct?.quadrilaterals.forEach((corners, k) => {
@@ -73,51 +67,15 @@ const drawBelow =
 const mean = (points, k) => points.reduce((sum, p) => sum + p[k], 0) / points.length;
 
 /**
- * Draws the obstacle, the via points, and the smallest distance of the levers from the obstacle.
+ * Draws the line from the obstacle to the nearest place of the levers.
  * @type {(shown: Shown, state: State) => Draw}
  */
 const drawAbove =
-  ({via, nearest: [at, text], kept}, state) =>
+  ({nearest: [at]}, state) =>
   (g, {to}) => {
     const [x, y] = to(state.obstacle),
       p = to([...at, 0]),
       far = Math.hypot(p[0] - x, p[1] - y);
-    for (const side of [-1, 1])
-      stroke(
-        g,
-        [
-          [x - 6, y - 6 * side],
-          [x + 6, y + 6 * side],
-        ],
-        colors.alarm,
-        3.5,
-      );
     if (far > 3) stroke(g, [[x, y], p], colors.near, 2);
     spot(g, p, 3.5, colors.near);
-    // the text is on the left, since the tool's frame points to the right
-    const left = p[0] <= x + 1;
-    write(
-      g,
-      text,
-      p[0] + (left ? -16 : 9),
-      p[1] + (far > 3 ? (p[1] < y ? -8 : 17) : 34),
-      kept ? colors.near : colors.alarm,
-      12.5,
-      left ? "right" : "left",
-      "600",
-    );
-    via.forEach((point, k) => {
-      const place = to([...point, 0]);
-      spot(g, place, 4, colors.path);
-      write(
-        g,
-        `K${k + 2}`,
-        place[0] - 8,
-        place[1] + (k ? 15 : -5),
-        colors.path,
-        12,
-        "right",
-        "600",
-      );
-    });
   };
