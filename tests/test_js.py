@@ -184,6 +184,7 @@ KEYS = {  # for each kind of page: a key that only this kind has, and a script t
     "plan": ("forbidden: number;", "plan_explorer.js"),
     "tour": ("spare: number[][];", "tour_explorer.js"),
     "singularity": ("beside: number[];", "singularity_explorer.js"),
+    "paths": ("paths: string[];", "paths_explorer.js"),
 }
 THINGS = {get_args(table.__annotations__["kind"])[0]: table for table in get_args(PageThing)}
 

@@ -8,6 +8,7 @@ import numpy as np
 import pytest
 import test_explorers
 import test_live
+import test_paths_explorer
 import test_predictions
 import test_singularity_explorer
 import test_tour_explorer
@@ -59,6 +60,7 @@ VIEWS = EXPLORERS | {
     "tour": lambda: tour_explorer(test_tour_explorer.CIRCLE),
     "rotation": lambda: rotation_explorer(1.2, (0.6, 0, 0.8), (0.1, 0, 0)),
     "singularity": test_singularity_explorer.view,
+    "paths": test_paths_explorer.view,
     "question": question,
 }
 each_view = pytest.mark.parametrize("kind", VIEWS)

@@ -5,6 +5,7 @@ all this needs.
 
 import numpy as np
 import pytest
+import test_paths_explorer
 import test_singularity_explorer
 from conftest import awake
 from test_player import FRACTIONS, GOAL, ROW, SCARA, START, VIA, T, chain, ink, kept, unpacked
@@ -101,6 +102,7 @@ EXPLORERS = {
     "elbow": lambda: elbow_explorer(IRB140),
     "motor": motor_explorer,
     "singularity": test_singularity_explorer.view,
+    "paths": test_paths_explorer.view,
 }
 
 

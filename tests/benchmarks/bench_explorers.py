@@ -31,6 +31,7 @@ from robokin import (
     blend,
     deg,
     follow,
+    loader_arm,
     quintic,
     three_lever,
     two_link,
@@ -40,6 +41,7 @@ from robokin.show import (
     joint_explorer,
     motion_explorer,
     movement_explorer,
+    paths_explorer,
     singularity_explorer,
     target_explorer,
 )
@@ -216,6 +218,12 @@ async def ours(path, folder):
         "singularity": (
             singularity_explorer(IRB140, np.zeros(6), (0, 1, 1)),
             "[data-handle=tool]",
+        ),
+        "paths": (
+            paths_explorer(
+                loader_arm(0.45, 0.3), (0.6, -0.35, 0.05), (0.05, 0.25, 0.35), (10, 40, 40)
+            ),
+            "[data-handle=free]",
         ),
         "motion, 241 samples": (motion_explorer(IRB140, start, via, goal), "[data-handle=via]"),
     }

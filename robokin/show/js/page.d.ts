@@ -5,15 +5,7 @@
 export type With<T, K extends keyof T> = T & Required<Pick<T, K>>;
 
 export type PageExplorer =
-  | JointPage
-  | LeversPage
-  | ElbowPage
-  | TargetPage
-  | MotionPage
-  | RotationPage
-  | SingularityPage
-  | PlanPage
-  | TourPage;
+  JointPage | LeversPage | ElbowPage | TargetPage | MotionPage | RotationPage | SingularityPage | PathsPage | PlanPage | TourPage;
 
 export type Scale = [number, number, number, number];
 
@@ -455,6 +447,29 @@ export interface RotationPage {
   rows: string[];
   heads: string[];
   decimals: number;
+}
+
+export interface PathsPage {
+  title: string;
+  summary: string;
+  alt: string;
+  meant: string;
+  unit: PageUnit;
+  scene: PageScene;
+  controls: Control[];
+  words: Record<string, string>;
+  code: string;
+  arm: ArmData;
+  units: PageUnit[];
+  kind: "paths";
+  start: number[];
+  goal: number[];
+  per_degree: number[];
+  limit: number;
+  row: number;
+  samples: number;
+  paths: string[];
+  heads: string[];
 }
 
 export interface LivePage {
