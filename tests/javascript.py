@@ -101,8 +101,14 @@ def page_types():
         "export type With<T, K extends keyof T> = T & Required<Pick<T, K>>;",
     ]
     for name, kind in ALIASES.items():
-        line = f"export type {name} = {_typed(kind, alias=False)};"
-        parts += ["", line if len(line) <= 100 else line.replace(" = ", " =\n  ")]
+        types = _typed(kind, alias=False)
+        line = f"export type {name} = {types};"
+        if len(line) > 100:  # as prettier wraps it
+            more = f"  {types};"
+            if len(more) > 100:
+                more = "".join(f"\n  | {each}" for each in types.split(" | "))[1:] + ";"
+            line = f"export type {name} =\n{more}"
+        parts += ["", line]
     for name, table in tables.items():
         parts += ["", f"export interface {name} {{"]
         for key, kind in get_type_hints(table).items():

@@ -5,7 +5,16 @@
 export type With<T, K extends keyof T> = T & Required<Pick<T, K>>;
 
 export type PageExplorer =
-  JointPage | LeversPage | ElbowPage | TargetPage | MotionPage | RotationPage | SingularityPage | PathsPage | PlanPage | TourPage;
+  | JointPage
+  | LeversPage
+  | ElbowPage
+  | TargetPage
+  | MotionPage
+  | RotationPage
+  | SingularityPage
+  | PathsPage
+  | PlanPage
+  | TourPage;
 
 export type Scale = [number, number, number, number];
 
