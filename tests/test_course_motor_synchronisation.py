@@ -1,10 +1,12 @@
 """The exercises of lab 11: correct answers in different styles pass, and mistakes are named."""
 
+import json
 import math
 import re
 
 import numpy as np
 import pytest
+from conftest import NOTEBOOKS
 
 from robokin import deg, loader_arm
 from robokin.course import book, check, solution, variant
@@ -217,3 +219,19 @@ def test_messages_about_drives_show_different_numbers_and_not_the_answer():
     assert runs != allowed
     text = {"gears": ["50", "50", "50"], "frequencies": [1, 2, 3]}
     assert check("motor_synchronisation.2", text, who="Ada").mistake == "another kind or shape"
+
+
+def test_view_of_the_lab_moves_the_gripper_to_the_goal_of_a_right_answer():
+    [path] = NOTEBOOKS.glob("11_*.ipynb")
+    stored = json.loads(path.read_text(encoding="utf-8"))["cells"]
+    sources = {cell["id"]: "".join(cell["source"]) for cell in stored}
+    space = {}
+    exec(sources["your-turn-stub-1"], space)
+    exec(sources["your-turn-player"], space)
+    assert space["own_title"].startswith("Write")
+    space["next_posture"] = posture(right)
+    exec(sources["your-turn-player"], space)
+    arrived = space["own_arm"].fk(space["own_way"][-1]).translation
+    assert arrived == pytest.approx(space["own_goal"], abs=1e-9)
+    assert abs(space["own_end"][0] - space["own_q"][0]) < np.pi
+    assert abs(space["own_end"][0]) > np.pi, "the shorter way passes the direction 180"
