@@ -1,16 +1,18 @@
 """The exercises of lab 11: correct answers in different styles pass, and mistakes are named."""
 
+import json
 import math
 import re
 
 import numpy as np
 import pytest
+from conftest import NOTEBOOKS
 
 from robokin import deg, loader_arm
 from robokin.course import book, check, solution, variant
 from robokin.jobs.steppers import counts, frequencies, shortest_turn, station_postures
 
-A, B = 0.45, 0.3
+A, B, E = 0.45, 0.3, 0.1
 LOADER = loader_arm(A, B)
 TURN = 2 * math.pi
 LAB = book.lab("motor_synchronisation")
@@ -27,11 +29,12 @@ def posture(alpha, guard=True, beta=lambda b: b):
 
     def program(point, before):
         x, y, z = map(float, point)
-        h = math.sqrt(x * x + y * y + z * z)
+        u = math.sqrt(x * x + y * y) - E
+        h = math.sqrt(u * u + z * z)
         if guard and not A - B <= h <= A + B:
             return [math.nan] * 3
         inside = math.acos((A * A + B * B - h * h) / (2 * A * B))
-        gamma = math.acos((A * A + h * h - B * B) / (2 * A * h)) + math.asin(z / h)
+        gamma = math.acos((A * A + h * h - B * B) / (2 * A * h)) + math.atan2(z, u)
         return [alpha(x, y, before), gamma, beta(inside)]
 
     return program
@@ -51,12 +54,20 @@ def by_loops(x, y, before):
 
 
 def by_package(point, before):
-    q = LOADER.ik(point)[LOADER.branch(1, -1)]
+    """With the inverse of a loader without a shoulder, in the plane of the arm."""
+    x, y, z = point
+    q = LOADER.ik([abs(np.hypot(x, y) - E), 0, z])[LOADER.branch(1, -1)]
     if np.isnan(q).any():
         return np.nan
-    on_axis = not (point[0] or point[1])
-    alpha = before if on_axis else before + shortest_turn(before, q[0])
-    return [[alpha, q[1] % TURN, abs(q[2])]]
+    gamma = q[1] if np.hypot(x, y) >= E else q[1] + np.pi - 2 * math.atan2(z, E - np.hypot(x, y))
+    alpha = before + shortest_turn(before, np.arctan2(y, x)) if x or y else before
+    return [[alpha, gamma % TURN, abs(q[2])]]
+
+
+def only_calls(point, before):
+    """The calls of the lab, without a thought about the shoulder."""
+    q = LOADER.ik(point)[LOADER.branch(1, -1)]
+    return [before + shortest_turn(before, q[0]), q[1], q[2]]
 
 
 def test_removing_only_two_turns_is_not_enough():
@@ -78,7 +89,8 @@ def test_correct_postures_pass_in_every_style(answer):
     [
         (posture(right, guard=False), "an error instead of NaN"),
         (posture(lambda x, y, b: math.atan2(y, x)), "alpha does not go on from before"),
-        (posture(lambda x, y, b: b + short(math.atan2(y, x) - b)), "above the base"),
+        (posture(lambda x, y, b: b + short(math.atan2(y, x) - b)), "on the axis"),
+        (only_calls, "the shoulder is left out"),
         (posture(lambda x, y, b: right(x, y, b) % TURN), "alpha from 0° to 360°"),
         (posture(lambda x, y, b: 0 if x == y == 0 else right(x, y, b) - b), "the turn for"),
         (posture(right, beta=lambda b: math.pi - b), "the outer angle at the elbow"),
@@ -203,7 +215,23 @@ def test_messages_about_drives_show_different_numbers_and_not_the_answer():
     assert f"{n.max() / own['most']:.2f}" not in told
     fast = {"gears": [gear] * 3, "frequencies": frequencies(n, 1.0001 * own["most"])}
     told = " ".join(check("motor_synchronisation.2", fast, who="Ada").says)
-    runs, allowed = re.search(r"runs at (.*) pulses/s; allowed are (.*)\.$", told).groups()
+    runs, allowed = re.search(r"runs at (.*) pulses/s; at most (.*) are allowed\.$", told).groups()
     assert runs != allowed
     text = {"gears": ["50", "50", "50"], "frequencies": [1, 2, 3]}
     assert check("motor_synchronisation.2", text, who="Ada").mistake == "another kind or shape"
+
+
+def test_view_of_the_lab_moves_the_gripper_to_the_goal_of_a_right_answer():
+    [path] = NOTEBOOKS.glob("11_*.ipynb")
+    stored = json.loads(path.read_text(encoding="utf-8"))["cells"]
+    sources = {cell["id"]: "".join(cell["source"]) for cell in stored}
+    space = {}
+    exec(sources["your-turn-stub-1"], space)
+    exec(sources["your-turn-player"], space)
+    assert space["own_title"].startswith("Write")
+    space["next_posture"] = posture(right)
+    exec(sources["your-turn-player"], space)
+    arrived = space["own_arm"].fk(space["own_way"][-1]).translation
+    assert arrived == pytest.approx(space["own_goal"], abs=1e-9)
+    assert abs(space["own_end"][0] - space["own_q"][0]) < np.pi
+    assert abs(space["own_end"][0]) > np.pi, "the shorter way passes the direction 180"

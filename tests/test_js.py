@@ -186,6 +186,7 @@ KEYS = {  # for each kind of page: a key that only this kind has, and a script t
     "tour": ("spare: number[][];", "tour_explorer.js"),
     "singularity": ("beside: number[];", "singularity_explorer.js"),
     "clearance": ("vias: number[][];", "clearance_explorer.js"),
+    "paths": ("paths: string[];", "paths_explorer.js"),
 }
 THINGS = {get_args(table.__annotations__["kind"])[0]: table for table in get_args(PageThing)}
 

@@ -9,6 +9,7 @@ import pytest
 import test_clearance_explorer
 import test_explorers
 import test_live
+import test_paths_explorer
 import test_predictions
 import test_singularity_explorer
 import test_tour_explorer
@@ -63,6 +64,7 @@ VIEWS = EXPLORERS | {
     "rotation": lambda: rotation_explorer(1.2, (0.6, 0, 0.8), (0.1, 0, 0)),
     "singularity": test_singularity_explorer.view,
     "clearance": test_clearance_explorer.view,
+    "paths": test_paths_explorer.view,
     "question": question,
 }
 each_view = pytest.mark.parametrize("kind", VIEWS)

@@ -188,8 +188,8 @@ def test_more_pulses_do_not_always_take_more_time(capsys):
 def test_straight_line_takes_longer_if_the_motor_at_the_limit_changes():
     words = flat("11", "deeper-straight-look")
     assert (
-        "longer than its d if the motor at the limit changes on the way, and as long if it does not"
-        in words
+        "longer than its d if the motor at the limit changes on the way, and as long as d if it "
+        "does not" in words
     )
     rng, kinds = np.random.default_rng(5), set()
     for _ in range(60):
@@ -220,7 +220,10 @@ def test_straight_line_takes_longer_if_the_motor_at_the_limit_changes():
 
 def test_rule_that_considers_only_the_size_of_a_turn_fails_in_the_stated_range():
     text = flat("11", "turn-look")
-    low, high = numbers(r"for \$-(\d+)° < d < -(\d+)°\$ the rule gives minus the right turn", text)
+    low, high = numbers(
+        r"for \$-(\d+)° < d < -(\d+)°\$ the rule \*by size\* gives the right turn with the wrong",
+        text,
+    )
     for d in np.arange(-899.5, 0):
         right = shortest_turn(0, d * deg) / deg
         rule = d if abs(d) <= 180 else -(360 - abs(d))
@@ -229,7 +232,7 @@ def test_rule_that_considers_only_the_size_of_a_turn_fails_in_the_stated_range()
 
 def test_three_windings_act_like_one_and_arctan_jumps():
     ((_, says),) = mistakes("motor_synchronisation", "one more winding now and then")
-    assert "so direction and strength are right, and three windings draw" in says
+    assert "so direction and strength are right, and three windings draw current" in says
     field = np.array([1, 1j, -1, -1j])
     assert np.array([1, 1, 0, 1]) @ field == np.array([1, 0, 0, 0]) @ field == 1
     _, options, right = asked("motor_synchronisation.p1")
@@ -237,7 +240,7 @@ def test_three_windings_act_like_one_and_arctan_jumps():
     with np.errstate(divide="ignore"):
         angle = np.arctan(20 / x) / deg
     steps = np.diff(angle)
-    assert options[1].reason.startswith("arctan(y / x) jumps so, and moves on both sides.")
+    assert options[1].reason.startswith("arctan(y / x) jumps there, and it changes on both sides.")
     assert (abs(steps) > 100).sum() in (1, 2) and (abs(steps[:1900]) > 0).all()
     whole, middle = numbers(
         r"by (\d+) degrees, (\d+) of them in the second in the middle",
@@ -245,7 +248,7 @@ def test_three_windings_act_like_one_and_arctan_jumps():
     )
     turned = [2 * np.degrees(np.arctan2(half, 20)) for half in (200, 50)]
     assert [round(each) for each in turned] == [whole, middle] and middle > whole / 2
-    assert "most of it in the middle" in options[right].text
+    assert "mostly in the middle" in options[right].text
 
 
 def test_lost_steps_with_and_without_a_ramp_are_as_stated():
@@ -267,7 +270,7 @@ def test_lost_steps_with_and_without_a_ramp_are_as_stated():
     assert "With a ramp of a tenth of a second it loses none." in text
     assert motor.run(ramp(48, f, f, 0), ones).lost == lost > 0
     assert motor.run(ramp(48, 40, f, 0.1), ones).lost == 0
-    assert "([lab 13](13_rotor.ipynb) measures the second)" in flat("11", "pulses")
+    assert "*maximum start frequency*; [lab 13](13_rotor.ipynb) measures it" in flat("11", "pulses")
     assert re.search(r"maximum start frequency: \d+ pulses/s", shown("13", "missed-code"))
 
 

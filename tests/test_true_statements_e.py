@@ -35,7 +35,7 @@ from robokin import (
 )
 from robokin.course import book
 from robokin.jobs.obstacles import in_quadrilateral, plan, via_path
-from robokin.jobs.steppers import Stepper, ramp, station_postures
+from robokin.jobs.steppers import Stepper, phases, ramp, station_postures
 from robokin.jobs.visit_collect import Task, TaskError
 
 LINE = book.lab("puma560_branches").module("predictions")
@@ -724,7 +724,8 @@ def test_plan_tries_more_circles_than_control():
 
 
 def test_motors_reverse_in_the_last_third_of_the_straight_line():
-    assert "**Look at** c in its last third:" in flat("11", "paths-look")
+    words = flat("11", "paths-look")
+    assert "In the last third: there the line passes close to the base" in words
     start, goal = np.array([[600, -350, 50], [50, 250, 350]]) * mm
     share = np.linspace(0, 1, 20001)
     line = start + share[:, None] * (goal - start)
@@ -735,11 +736,47 @@ def test_motors_reverse_in_the_last_third_of_the_straight_line():
     assert [len(each) for each in back] == [0, 1, 1] and min(back[1][0], back[2][0]) > 2 / 3
 
 
+def test_answers_to_the_hand_in_lab_11_are_true():
+    """The goal of path b, the borders of the reach, the drift of the cycle, the half steps."""
+    start, loader = np.array([600, -350, 50]) * mm, loader_arm(0.45, 0.30)
+    goal = numbers(r"example \((\S+), (\S+), (\S+)\) mm: this line", flat("11", "able"))
+    share = np.linspace(0, 1, 2001)[:, None]
+    line = start + share * (np.array(goal) * mm - start)
+    turns = np.diff(station_postures(loader, line), axis=0)
+    assert ((turns > 0).all(axis=0) | (turns < 0).all(axis=0)).all(), "a motor reverses"
+    near, far = numbers(r"= (\d+) mm, .* = (\d+) mm", flat("11", "angles-hole"))
+    for distance, exists in ((near - 1, 0), (near + 1, 1), (far - 1, 1), (far + 1, 0)):
+        rows = loader.ik([distance * mm, 0, 0])
+        assert np.isfinite(rows).all(axis=-1).any() == exists
+    made = run_cells("11", "drift-code")
+    assert made["left_over"].tolist() == [1, 0, -1]
+    assert "a pulse too many, and joint 3 one too few" in flat("11", "drift-look")
+    assert flat("11", "drift-look").count("To the left and towards the base")
+    before = np.deg2rad([-30.0, 66, 110])
+    after = before + np.deg2rad([0.1, 0, -1 / 40])
+    one, two = loader.fk(before).translation, loader.fk(after).translation
+    assert np.cross(one, two)[2] > 0 and np.linalg.norm(two) < np.linalg.norm(one)
+    rows = {drive: len(phases(drive, "unipolar")) for drive in ("wave", "half-step")}
+    eight, four, small, large = numbers(
+        r"are (\S+) rows instead of (\S+), .* by (\d+)° instead of (\d+)°",
+        re.sub("eight", "8", flat("11", "phases-look")).replace("of four", "of 4"),
+    )
+    assert (eight, four) == (rows["half-step"], rows["wave"])
+    assert (small, large) == (360 / eight, 360 / four)
+
+
 def test_long_turns_and_lost_steps_are_as_stated():
-    assert "the plain difference arrives, at three the long way." in flat("11", "turn-look")
     stands, directions = 150, np.array([-165, -120, -60, 0, 60, 120])
-    assert f"directions = np.array({directions.tolist()})" in cells("11")["turn-setup"]
-    assert sum(abs(directions - stands) > 180) == 3
+    setup = cells("11")["turn-setup"]
+    assert f"directions, began = np.array({directions.tolist()}), {stands}" in setup
+    *long, last = directions[abs(directions - stands) > 180]
+    said = (
+        f"At {', '.join(f'{x}°' for x in long)} and {last}° the plain difference takes the long way"
+    )
+    assert said.replace("-", "\N{MINUS SIGN}") in flat("11", "turn-answer")
+    for each in directions:  # the rest of the turn, always with the same sign
+        turn = each - stands if abs(each - stands) <= 180 else abs(each - stands) - 360
+        assert ((stands + turn - each) % 360 == 0) == (abs(each - stands) <= 180)
     motor, ones = Stepper(torque=0.02, inertia=1e-6, damping=6e-5, rise=0), np.ones(48)
     lost = {motor.run(ramp(48, f, f, 0), ones).lost for f in range(60, 281, 10)}
     assert 0 in lost and not any(each % 4 for each in lost)

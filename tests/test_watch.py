@@ -6,6 +6,7 @@ all this needs.
 import numpy as np
 import pytest
 import test_clearance_explorer
+import test_paths_explorer
 import test_singularity_explorer
 from conftest import awake
 from test_player import FRACTIONS, GOAL, ROW, SCARA, START, VIA, T, chain, ink, kept, unpacked
@@ -103,6 +104,7 @@ EXPLORERS = {
     "motor": motor_explorer,
     "singularity": test_singularity_explorer.view,
     "clearance": test_clearance_explorer.view,
+    "paths": test_paths_explorer.view,
 }
 
 

@@ -396,6 +396,15 @@ CALLS = {
         figures.singularity_explorer,
         dict(arm=IRB140, q=np.zeros(6), way=(0.0, 1.0, 1.0), most=0.02, step=0.001),
     ),
+    "paths_explorer": (
+        figures.paths_explorer,
+        dict(
+            arm=LOADER,
+            start=(1.0, 0.5, 0.3),
+            goal=(0.8, 0.9, 0.2),
+            per_degree=(10.0, 40.0, 40.0),
+        ),
+    ),
     "motor_explorer": (figures.motor_explorer, dict(motor=STEPPER)),
     "movement_explorer": (
         figures.movement_explorer,

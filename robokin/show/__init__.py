@@ -14,6 +14,7 @@ try:
     from .motion_explorer import motion_explorer
     from .motors import motor_explorer
     from .palette import JOINT_STYLES
+    from .paths_explorer import paths_explorer
     from .plan_explorer import plan_explorer
     from .player import Player, animate
     from .plots import figure, plot_frames, plot_postures
@@ -42,6 +43,7 @@ __all__ = [
     "motion_explorer",
     "motor_explorer",
     "movement_explorer",
+    "paths_explorer",
     "plan_explorer",
     "plot_frames",
     "plot_joints",

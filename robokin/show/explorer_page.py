@@ -241,6 +241,23 @@ class RotationPage(ExplorerPage):
     decimals: int
 
 
+class PathsPage(ArmPage):
+    """The data of the explorer of paths: start and goal, the pulses per degree of the joints, the
+    greatest frequency of a motor, the row of `ik`, the number of postures along the straight line,
+    the names of the paths, and the headings of the table.
+    """
+
+    kind: Literal["paths"]
+    start: list[float]
+    goal: list[float]
+    per_degree: list[float]
+    limit: float
+    row: int
+    samples: int
+    paths: list[str]
+    heads: list[str]
+
+
 class LivePage(ExplorerPage):
     """The additional data of `live.Live`: the first question of an explorer, and its answer."""
 
@@ -281,6 +298,7 @@ PageExplorer: TypeAlias = (
     | RotationPage
     | SingularityPage
     | ClearancePage
+    | PathsPage
     | PlanPage
     | TourPage
 )

@@ -31,6 +31,7 @@ from robokin import (
     blend,
     deg,
     follow,
+    loader_arm,
     quintic,
     three_lever,
     two_link,
@@ -41,6 +42,7 @@ from robokin.show import (
     joint_explorer,
     motion_explorer,
     movement_explorer,
+    paths_explorer,
     singularity_explorer,
     target_explorer,
 )
@@ -223,6 +225,12 @@ async def ours(path, folder):
                 three_lever(1), [1.9, 2.2, 2], (1.9, 0.3), (1.2, 1.3), [(0.7, 1.8), (1.0, 1.2)]
             ),
             "[data-handle=K2]",
+        ),
+        "paths": (
+            paths_explorer(
+                loader_arm(0.45, 0.3), (0.6, -0.35, 0.05), (0.05, 0.25, 0.35), (10, 40, 40)
+            ),
+            "[data-handle=free]",
         ),
         "motion, 241 samples": (motion_explorer(IRB140, start, via, goal), "[data-handle=via]"),
     }

@@ -9,16 +9,17 @@ from robokin.course.exercises import in_words
 from robokin.course.told import apart, floats
 from robokin.units import wrapped
 
-from .shared import LOADER, TURN, A, B, Floats
+from .shared import SHOULDER, TURN, A, B, E, Floats
 
 # x, y, z in mm, and the previous angle of joint 1 in degrees
 PLACES = (
     "600 0 100 0, 600 200 100 0, 300 400 0 40, 0 500 200 10, -400 300 50 100, -400 -300 50 -100",
     "400 -300 250 30, -500 -20 200 170, -500 20 200 -170, -500 -20 200 190, -500 20 200 -200",
     "-300 -300 300 90, 300 300 300 -150, 500 100 100 700, 500 -100 100 -760, 0 0 400 130",
-    "0 0 600 -75, 4 3 500 60, -1 2 400 -100, 0 -400 0 0, 100 100 600 -20",  # over the base
-    "80 60 700 0, 100 0 0 0, 60 -60 90 20, 700 400 100 0, 0 0 800 30, 149 0 0 0, 0 752 0 0",
-    "-151 0 0 150, 0 749 0 100",  # at the borders
+    "0 0 600 -75, 4 3 500 60, -1 2 400 -100, 0 -400 0 0, 100 100 600 -20",  # near the axis
+    "60 20 300 40, -30 -50 250 -100",  # behind joint 2
+    "80 60 700 0, 200 0 0 0, 60 -60 90 20, 800 400 100 0, 0 0 800 30, 249 0 0 0, 0 852 0 0",
+    "-251 0 0 150, 0 849 0 100",  # at the borders
     "450 150 100 1400, -400 -250 80 -1700",  # four turns further
 )
 
@@ -28,7 +29,7 @@ def cases(rng: np.random.Generator) -> list[tuple[Any, ...]]:
     found = [(row[:3] * mm, float(row[3] * deg)) for row in rows]
     for _ in range(8):
         place = rng.uniform(-1, 1, 3)
-        place *= rng.uniform(0.2, 0.7) / np.linalg.norm(place)
+        place *= rng.uniform(0.3, 0.7) / np.linalg.norm(place)
         place[2] = abs(place[2])
         found.append((place.round(3), float(rng.uniform(-200, 200) * deg)))
     return found
@@ -53,12 +54,12 @@ def same(a: Floats, b: Floats) -> bool:
 
 def law(case: tuple[Any, ...], yours: Floats, wanted: Floats) -> str | None:
     point, before = case
-    h = float(np.sqrt(point @ point))
+    h = float(np.hypot(np.hypot(point[0], point[1]) - E, point[2]))
     if np.isnan(wanted).any():
         if np.isnan(yours).all():
             return None
         side = "nearer than A \N{MINUS SIGN} B" if h < A else "farther than A + B"
-        return f"should be three NaN: h = {h / mm:.1f} mm is {side}"
+        return f"should be three NaN: joint 2 is h = {h / mm:.1f} mm away from the point, {side}"
     # whole turns count for joint 1 (alpha), and not for gamma and beta
     off = abs(np.append(yours[:1] - wanted[:1], wrapped(yours[1:] - wanted[1:])))
     if off.max() <= 1e-6:
@@ -66,17 +67,17 @@ def law(case: tuple[Any, ...], yours: Floats, wanted: Floats) -> str | None:
     angles = zip("αγβ", wanted + 0.0, strict=True)
     says = f"should be {', '.join(f'{name} = {x / deg:.2f}°' for name, x in angles)}"
     if not off[0] <= 1e-6 and not (point[0] or point[1]):
-        return f"{says}: above the base joint 1 stays at {before / deg:.1f}°"
+        return f"{says}: on the axis joint 1 stays at {before / deg:.1f}°"
     if np.isnan(yours).any():
-        return f"{says}: h = {h / mm:.1f} mm is in reach"
+        return f"{says}: joint 2 is h = {h / mm:.1f} mm away from the point, which is in reach"
     if off[0] > 1e-6 and abs(wrapped(yours[0] - wanted[0])) <= 1e-6:
         turn, yours_turn = apart((wanted[0] - before) / deg, (yours[0] - before) / deg)
-        return f"{says}: a turn of {turn}° from {before / deg:.1f}°; yours is one of {yours_turn}°"
-    there = LOADER.fk(wrapped(yours)).translation
+        return f"{says}: a turn of {turn}° from {before / deg:.1f}°; you turn by {yours_turn}°"
+    there = SHOULDER.fk(wrapped(yours)).translation
     if np.linalg.norm(there - point) <= 1e-9:
         return f"{says}; your angles reach the point in another posture"
     got, asked = apart(there / mm, point / mm)
-    return f"{says}; your angles put the gripper at ({got}) mm, asked is ({asked}) mm"
+    return f"{says}; your angles put the gripper at ({got}) mm instead of ({asked}) mm"
 
 
 # --- Helpers for the wrong programs ---------------------------------------------------------------

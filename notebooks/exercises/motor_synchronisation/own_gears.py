@@ -99,14 +99,14 @@ def faults(drive: Drive, numbers: Any) -> list[Fault]:
         moves, allowed = apart(ends[k] / mm, miss / mm, 2)
         says = (
             f"Half a pulse of motor {k + 1} moves the end of the stretched arm by {moves} mm; "
-            f"allowed are {allowed} mm. Half a pulse turns the joint by 0.9° / gear, and the end "
-            f"is {LENGTHS[k] / mm:.0f} mm away from it."
+            f"at most {allowed} mm is allowed. Half a pulse turns the joint by 0.9° / gear, and "
+            f"the end is {LENGTHS[k] / mm:.0f} mm away from it."
         )
         found.append(("too coarse", says))
     fast = np.flatnonzero(omega > most * (1 + 1e-9))
     if fast.size:
         runs, allowed = apart(omega[fast[0]], most)
-        says = f"Motor {fast[0] + 1} runs at {runs} pulses/s; allowed are {allowed}."
+        says = f"Motor {fast[0] + 1} runs at {runs} pulses/s; at most {allowed} are allowed."
         found.append(("above the limit", says))
     pulses = pulses_of(move(numbers), gears)
     if not close(pulses / omega):
@@ -127,16 +127,16 @@ def not_together(q: Floats, gears: Floats, omega: Floats, pulses: Floats) -> Fau
     turns = abs(np.diff(q, axis=0)[0] / deg)
     long = pulses_of(np.column_stack([wrapped(q[:, 0]), q[:, 1:]]), gears)
     why = {
-        "the long way round": f"Your frequencies are for {long[0]:.0f} pulses of motor 1: from one "
-        "side of the direction 180° to the other the short way does not pass 0°.",
-        "equal products": "The products of pulses and frequency are equal. A time is pulses "
-        "divided by frequency.",
-        "one frequency for all": "With one frequency for all, the motor with the most pulses stops "
-        "last.",
-        "the gears left out": "The frequencies are in proportion to the turns of the joints, not "
-        "to the pulses: the gears are left out.",
-        "divided by the gear": "A gear of i : 1 asks for i times as many pulses, not for an i-th "
-        "of them.",
+        "the long way round": f"Your frequencies are for {long[0]:.0f} pulses of motor 1. From one "
+        "side of the direction 180° to the other, the shorter way does not pass 0°.",
+        "equal products": "You made the products of pulses and frequency equal. The time is the "
+        "number of pulses divided by the frequency.",
+        "one frequency for all": "You use the same frequency for all motors. Then the motor with "
+        "the most pulses stops last.",
+        "the gears left out": "Your frequencies are in proportion to the turns of the joints, not "
+        "to the pulses: you left out the gears.",
+        "divided by the gear": "You divided by the gear. With a gear of i : 1 the motor needs i "
+        "times as many pulses.",
     }
     fits = (
         close(long / omega),
@@ -153,13 +153,13 @@ def not_together(q: Floats, gears: Floats, omega: Floats, pulses: Floats) -> Fau
 
 def too_slow(gears: Floats, omega: Floats, pulses: Floats, most: float, seconds: float) -> Fault:
     takes, allowed = apart((pulses / omega).max(), seconds)
-    says = f"The move takes {takes} s; allowed are {allowed} s."
+    says = f"The move takes {takes} s; at most {allowed} s is allowed."
     if pulses.max() / most <= seconds:
-        says += " These gears can keep the time, with higher frequencies."
+        says += " With higher frequencies, these gears are fast enough."
         return "slower than the limit asks", says
     k = int(pulses.argmax())
     says += (
         f" Even at {most:.0f} pulses/s motor {k + 1} takes longer than that: its gear of "
-        f"{gears[k]:.0f} : 1 is finer than asked."
+        f"{gears[k]:.0f} : 1 is finer than it has to be."
     )
     return "geared too high", says

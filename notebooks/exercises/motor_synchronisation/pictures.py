@@ -27,26 +27,26 @@ def p1_view() -> Any:
     ax = fig.subplots()
     ax.plot(t, alpha, color=JOINT_STYLES[0]["color"], lw=2.4)
     ax.set(xlabel="time, s", ylabel="α, °", yticks=range(0, 181, 45))
-    ax.set_title(f"Past the axis joint 1 turns with up to {facts['most']:.0f}°/s")
+    ax.set_title(f"Beside the axis joint 1 turns at up to {facts['most']:.0f}°/s")
     fig.tight_layout()
     return fig
 
 
 def p2_view() -> Any:
     told, at = [], 170.0
-    for to, stands in ((-170, "joint 1 stands"), (-60, "it stands")):
+    for to in (-170, -60):
         turn = float(shortest_turn(at * deg, to * deg)) / deg
-        told.append(f"From {at:.0f}°: the turn is {turn:+.0f}°, and {stands} at {at + turn:.0f}°.")
+        told.append(f"From {at:.0f}°: the turn is {turn:+.0f}°, and ends at {at + turn:.0f}°.")
         at += turn
     return "\n".join(told)
 
 
 def p3_view() -> Any:
     facts = p3()
-    lines = ("1: at the end of the whole arm", "2: the same lever, four times finer", "3: lever B")
+    lines = ("the whole arm", "the same arm, with steps four times as fine", "lever B")
     return "\n".join(
-        f"Half a pulse of motor {line}: {facts[f'm{line[0]}']:.3f} mm at the gripper."
-        for line in lines
+        f"Half a pulse of motor {k}, which turns {line}: {facts[f'm{k}']:.3f} mm at the gripper."
+        for k, line in enumerate(lines, 1)
     )
 
 
@@ -54,7 +54,8 @@ def p4_view() -> Any:
     slow = p4()["quarter"]
     return (
         f"Motor 1: 1200 pulses at 500 pulses/s take {1200 / 500:.1f} s.\n"
-        f"Motor 2: 300 pulses at {slow:.0f} pulses/s take {300 / slow:.1f} s.\nMotor 3 stands."
+        f"Motor 2: 300 pulses at {slow:.0f} pulses/s take {300 / slow:.1f} s.\n"
+        "Motor 3 does not move."
     )
 
 
@@ -81,8 +82,8 @@ def p5_view() -> Any:
 def p6_view() -> Any:
     facts = p6()
     return (
-        f"The controller counts {facts['counted']} pulses. The motor stands at "
-        f"{facts['stands']}: {facts['off']} short, as before the second move."
+        f"The controller counts {facts['counted']} pulses. The motor is at "
+        f"{facts['stands']}: {facts['off']} pulses short, as before the second move."
     )
 
 
@@ -90,8 +91,8 @@ def p7_view() -> Any:
     off, _ = random_moves()
     most = abs(off).max()
     says = (
-        f"The miss of three motors over 10 000 random moves, each rounded by itself: it wanders, "
-        f"by up to {most:.0f} pulses."
+        "The errors of three motors over 10 000 random moves, each rounded separately: they "
+        f"wander, by up to {most:.0f} pulses."
     )
     fig = figure(says, 6.4, 3)
     ax = fig.subplots()
@@ -100,9 +101,9 @@ def p7_view() -> Any:
         ax.plot(column[::20], color=color, lw=1.4)
         ax.text(505, column[-1], f"motor {i + 1}", color=color, va="center")
     thousands = [f"{20 * k:,}".replace(",", " ") for k in range(0, 501, 100)]
-    ax.set(xlabel="moves", ylabel="miss, pulses", xlim=(0, 580))
+    ax.set(xlabel="moves", ylabel="error, pulses", xlim=(0, 580))
     ax.set_xticks(range(0, 501, 100), thousands)
-    ax.set_title(f"It wanders, by up to {most:.0f} pulses")
+    ax.set_title(f"The errors wander, by up to {most:.0f} pulses")
     fig.tight_layout()
     return fig
 
@@ -110,6 +111,6 @@ def p7_view() -> Any:
 def p9_view() -> Any:
     facts = p9()
     return (
-        f"Twelve half steps turn the field by 12 x 45° = {facts['field']:.0f}°, one turn and a "
-        f"half. The rotor goes 1/50 of that: {facts['rotor']:.1f}°, or twelve times 0.9°."
+        f"Twelve half steps turn the field by 12 × 45° = {facts['field']:.0f}°, which is one and "
+        f"a half turns. The rotor turns by 1/50 of that: {facts['rotor']:.1f}°, or 12 × 0.9°."
     )

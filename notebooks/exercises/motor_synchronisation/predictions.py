@@ -50,6 +50,7 @@ def p2() -> dict[str, Any]:
         "back": -60.0,
         "turns": at - 170,
         "one": one_sided,
+        "radians": at * deg,
         "right": "counted on",
     }
 
@@ -70,6 +71,7 @@ def p4() -> dict[str, Any]:
         "share": 500.0 * 300 / pulses.sum(),
         "full": 500.0,
         "third": 500 / 3,
+        "milli": float(frequencies(pulses)[1]) / 1000,
         "right": "a quarter",
     }
 
@@ -142,6 +144,7 @@ def p9() -> dict[str, Any]:
     field = float(np.unwrap(np.angle(rows @ np.exp(0.5j * np.pi * np.arange(4))))[-1]) / deg
     return {
         "rotor": field / 50,
+        "radians": field / 50 * deg,
         "field": field,
         "full": 12 * STEP,
         "rows": 12 / 8 * STEP,

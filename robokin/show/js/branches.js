@@ -179,6 +179,17 @@ export function excess(arm, q, j) {
 }
 
 /**
+ * Says why a row of `ik` does not exist.
+ * @param {ClosedFormArm} arm
+ * @param {PagePose} pose
+ * @param {number} row
+ */
+export function gapInWords(arm, pose, row) {
+  const {kind, metres} = geometryOf(arm).gap(arm, pose, row);
+  return fill(arm.sentences[kind], {what: arm.carried, gap: inWords(metres)});
+}
+
+/**
  * Says in one sentence whether a row of `ik` is usable and, if it is not, why. The sentences are
  * the same as in Python.
  * @param {ClosedFormArm} arm
@@ -191,10 +202,10 @@ export function explain(arm, pose, row) {
     q = ik(arm, pose)[row];
   const flags = arm.branches[row].map(flag => (flag > 0 ? "+1" : "-1")).join(", ");
   if (!exists(q)) {
-    const {kind, metres} = geometryOf(arm).gap(arm, pose, row);
+    const {metres} = geometryOf(arm).gap(arm, pose, row);
     const small = {...pose, place: pose.place.map(x => x / 1000)};
     const meant = metres > 10 && ik(arm, small).some(exists);
-    const reason = fill(sentences[kind], {what, gap: inWords(metres)});
+    const reason = gapInWords(arm, pose, row);
     return fill(sentences.missing, {row, flags, reason, hint: meant ? sentences.millimetres : "."});
   }
   const past = within(arm, q).flatMap((good, j) => (good ? [] : [excess(arm, q, j)]));

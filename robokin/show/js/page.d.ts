@@ -15,6 +15,7 @@ export type PageExplorer =
   | RotationPage
   | SingularityPage
   | ClearancePage
+  | PathsPage
   | PlanPage
   | TourPage;
 
@@ -518,6 +519,29 @@ export interface RotationPage {
   rows: string[];
   heads: string[];
   decimals: number;
+}
+
+export interface PathsPage {
+  title: string;
+  summary: string;
+  alt: string;
+  meant: string;
+  unit: PageUnit;
+  scene: PageScene;
+  controls: Control[];
+  words: Record<string, string>;
+  code: string;
+  arm: ArmData;
+  units: PageUnit[];
+  kind: "paths";
+  start: number[];
+  goal: number[];
+  per_degree: number[];
+  limit: number;
+  row: number;
+  samples: number;
+  paths: string[];
+  heads: string[];
 }
 
 export interface LivePage {

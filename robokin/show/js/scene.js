@@ -34,6 +34,7 @@ import {compass} from "./triad.js";
  * @property {boolean} [glass]  whether to draw it translucent
  * @property {number[]} [past]  the joints that exceed a limit
  * @property {string} [row]  the row of `ik` to which the posture belongs
+ * @property {{text: string, at: Point, color: string}[]} [labels]  bold labels at points
  * @property {Draw} [under]  draws anything else below the arm
  * @property {Draw} [over]  draws anything else above it
  * @property {(cam: Camera) => Box[]} [handles]  the boxes of its handles, which no label covers
@@ -270,6 +271,8 @@ function drawSpace(pen, arms, [x, y, w, h], named) {
         color: colors.alarm,
         weight: "600",
       });
+  for (const {cam, labels = []} of all)
+    for (const label of labels) found.labels.push({...label, at: cam.to(label.at), weight: "600"});
   placeLabels(
     g,
     found.labels,

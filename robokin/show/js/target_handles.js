@@ -7,25 +7,29 @@ import {dot, matrix, plus, product} from "./kinematics.js";
 import {AXES} from "./triad.js";
 import {aboutAxis, degrees, normal, radians, rollPitchYaw, rotationOf} from "./turns.js";
 
-/** @import {With} from "./page.js" */
 /** @import {Point} from "./canvas.js" */
 /** @import {Camera} from "./camera.js" */
 /** @import {Handle} from "./handles.js" */
 /** @import {Stage} from "./stage.js" */
-/** @import {State, Target, TargetExplorer} from "./target_explorer.js" */
+/** @import {ArmData, TargetPage, With} from "./page.js" */
+/** @import {Target} from "./target_explorer.js" */
 
 const ALONG = 0.9999; // cosine of an angle to the line of sight that counts as none
 
 /**
+ * The page data that the handles need.
+ * @typedef {Pick<TargetPage, "scene" | "unit" | "words"> & {arm: Pick<ArmData, "target">}} Moved
+ */
+/**
  * The common arguments of all handles of a target.
- * @typedef {{stage: Stage, state: State, home: Target, data: TargetExplorer, fine: number}} Held
+ * @typedef {{stage: Stage, state: Target, home: Target, data: Moved, fine: number}} Held
  */
 
 /**
  * @param {Stage} stage
- * @param {State} state
+ * @param {Target} state
  * @param {Target} home
- * @param {TargetExplorer} data
+ * @param {Moved} data
  * @returns {Handle[]}
  */
 export function targetHandles(stage, state, home, data) {
@@ -44,7 +48,7 @@ export function targetHandles(stage, state, home, data) {
 
 /**
  * Axis k of the target or, if it has no rotation, of the base.
- * @type {(state: State, k: number) => number[]}
+ * @type {(state: Target, k: number) => number[]}
  */
 const axisOf = ({rotation}, k) => {
   const axes = rotation ? matrix(rotation) : null;
@@ -53,7 +57,7 @@ const axisOf = ({rotation}, k) => {
 
 /**
  * A place on a ring around the target.
- * @type {(state: State, camera: Camera, x: number, a: number[], b: number[]) => Point}
+ * @type {(state: Target, camera: Camera, x: number, a: number[], b: number[]) => Point}
  */
 const rim = ({place}, camera, x, a, b) =>
   plus(plus(place, a, reachOf(camera) * Math.cos(x)), b, reachOf(camera) * Math.sin(x));
@@ -131,7 +135,7 @@ function turnHandle({state, home, data}, k) {
     /** @type {const} */ ([axisOf(state, (k + 1) % 3), axisOf(state, (k + 2) % 3)]);
   /** @type {(axis: number[], angle: number) => void} */
   const turnBy = (axis, angle) => {
-    const {rotation} = /** @type {With<State, "rotation">} */ (state);
+    const {rotation} = /** @type {With<Target, "rotation">} */ (state);
     state.rotation = normal(product(aboutAxis(axis, angle), rotation));
     state.turns = rollPitchYaw(matrix(state.rotation));
   };
@@ -164,7 +168,7 @@ function turnHandle({state, home, data}, k) {
 
 /** @type {(held: Held) => Handle} */
 function angleHandle({state, home, data}) {
-  const turned = /** @type {With<State, "angle">} */ (state);
+  const turned = /** @type {With<Target, "angle">} */ (state);
   /** @type {(camera: Camera, x: number) => Point} */
   const place = (camera, x) => rim(state, camera, x, [1, 0, 0], [0, 1, 0]);
   return {
