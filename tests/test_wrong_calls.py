@@ -358,7 +358,7 @@ CALLS = {
     ),
     "elbow_explorer": (figures.elbow_explorer, dict(arm=IRB140)),
     "target_explorer": (figures.target_explorer, dict(arm=SCARA, target=PLACE, zone=True)),
-    "tour_explorer": (figures.tour_explorer, dict(task=TASK)),
+    "tour_explorer": (figures.tour_explorer, dict(task=TASK, best=True)),
     "motion_explorer": (
         figures.motion_explorer,
         dict(
