@@ -168,8 +168,8 @@ def test_tours_with_a_bag_emptied_at_the_end_count_as_round_trips():
 
 
 def test_time_to_collect_is_three_times_the_time_to_visit():
-    assert "# worth: T_collect is 3 T; the cheap one costs T, the dear one 2.4 T" in TRAPS.solution
-    assert "there and back: T of the 3 T), the dear one at −1.2 B (2.4 T)" in one_line(
+    assert "# worth: T_collect is 3 T; a cheap one costs T, the valuable one 2.4 T" in TRAPS.solution
+    assert "there and back: T of the 3 T), the valuable one at −1.2 B (2.4 T)" in one_line(
         TRAPS.hints[2]
     )
     assert "there is time for 1.5 B there and back" in one_line(TRAPS.hints[1])
@@ -183,9 +183,9 @@ def test_time_to_collect_is_three_times_the_time_to_visit():
         exec(TRAPS.solution.replace('"your name"', repr(who)), made)
         start = joints_of(given["p0"])
         costs = [2 * needs(start, joints_of(p), speed) for p in made["my_traps"]["worth"]]
-        dear = max(range(4), key=lambda i, given=given: given["worth"][i])
-        assert min(costs) == pytest.approx(T) and costs[dear] == pytest.approx(2.4 * T)
-        assert sum(costs) - min(costs) - costs[dear] > 2 * 2.4 * T
+        most = max(range(4), key=lambda i, given=given: given["worth"][i])
+        assert min(costs) == pytest.approx(T) and costs[most] == pytest.approx(2.4 * T)
+        assert sum(costs) - min(costs) - costs[most] > 2 * 2.4 * T
         if k < 5:
             assert check("visit_and_collect.3", made["my_traps"], who=who).holds
 
