@@ -26,7 +26,7 @@ from robokin import (
 )
 from robokin.course import book
 from robokin.jobs.steppers import Stepper, ramp, station_postures
-from robokin.jobs.visit_collect import Task, TaskError
+from robokin.jobs.visit_collect import Task, TaskError, principal_postures
 
 LINE = book.lab("puma560_branches").module("predictions")
 LOADER = loader_arm(450 * mm, 300 * mm)

@@ -51,7 +51,7 @@ WORDS = {
     "collect": "Your order brings {count} of {n} in {t} s.",
     "late": "too late:",
     "rank": ", number {rank} in your order",
-    "clear": "Clear your order",
+    "clear": "Clear order",
     "veiled": "The best order appears when all points are in your order.",
     "scene": "An arm and {n} points.",
     "asleep": "Inactive: moving the points needs Python. Run this cell to activate it. Until then, "
