@@ -1,9 +1,10 @@
-"""The tour explorer: Python's answers to random tasks, and the view in JupyterLab with a kernel and
-in a file without one.
+"""The tour explorer: Python's answers to random tasks, the page's tours in the reader's order, and
+the view in JupyterLab with a kernel and in a file without one.
 """
 
 import itertools
 import json
+import math
 import re
 
 import nbformat
@@ -13,6 +14,7 @@ import pytest
 from robokin import spbu_arm
 from robokin.jobs.visit_collect import Task, best_visit, collect, visit, workspace
 from robokin.show import live, tour_explorer
+from robokin.show.joiner import script
 from robokin.show.tour_explorer import WHILE_HELD, answered
 
 SPEEDS = np.array([0.2, 0.2, 0.2])
@@ -126,9 +128,20 @@ def test_tour_below_the_floor_is_reported_with_its_depth():
 
 def test_stored_output_is_small_and_has_alt_text():
     explorer = tour_explorer(CIRCLE)
-    assert len(explorer.html) < 57_000
+    assert len(explorer.html) < 58_500
     assert "Greed loses 2 points" in explorer.data["alt"] and explorer.data["alt"] in explorer.html
     assert explorer.still.alt == explorer.data["alt"]
+
+
+def test_best_order_is_not_told_before_the_reader_has_an_order():
+    explorer = tour_explorer(CIRCLE, best=False)
+    wanted = (
+        "Nearest first visits 1 of 4. The best order appears when all points are in your order."
+    )
+    assert explorer.still.alt == explorer.data["alt"] == f"An arm and 4 points. {wanted}"
+    for best in (1, "no", None, np.array([True])):
+        with pytest.raises(ValueError, match="best: wanted True or False, got"):
+            tour_explorer(CIRCLE, best=best)
 
 
 @pytest.mark.parametrize(
@@ -151,7 +164,70 @@ def test_explorer_opens_with_any_task(task):
     assert sum(answered(added, SPEEDS)["reached"]) >= 10, (
         "the points that can be added must be reachable"
     )
-    assert len(explorer.html) < 59_000
+    assert len(explorer.html) < 60_500
+
+
+# --- Tours in the reader's order, which the page computes -----------------------------------------
+
+
+def by_hand(question, order):
+    """The points of a tour with their times: joint by joint, a free one (NaN) stays where it is."""
+    served = workspace(question["l1"], question["l2"], question["points"]).all(axis=-1)
+    task = Task(*(question[key] for key in ("l1", "l2", "T")), SPEEDS, question["p0"],
+                np.array(question["points"])[served], question["kind"])  # fmt: skip
+    rows = dict(zip(np.flatnonzero(served).tolist(), task.q[1:], strict=True))
+    order = [k for k in order if served[k]]
+    stops = [task.q[0]]
+    for k in order:
+        stops += [rows[k], task.q[0]] if task.kind == "collect" else [rows[k]]
+    spent, moves = 0.0, []
+    now = [next((q[j] for q in stops if not np.isnan(q[j])), 0.0) for j in range(3)]
+    for q in stops:
+        new = [a if np.isnan(b) else b for a, b in zip(now, q, strict=True)]
+        spent += max(abs(a - b) / v for a, b, v in zip(new, now, SPEEDS, strict=True))
+        now = new
+        moves.append(spent)
+    return list(zip(order, moves[2::2] if task.kind == "collect" else moves[1:], strict=True))
+
+
+def test_page_computes_the_times_of_1000_orders_as_python_does(browser):
+    page, rng = opened(browser), np.random.default_rng(21)
+    page.goto("about:blank")
+    page.add_script_tag(content=f"{script('own_tour')}\nwindow.found = $own_tour.found;")
+    data = {"words": tour_explorer(CIRCLE).data["words"], "speeds": SPEEDS.tolist()}
+    calls, wanted, on_axis = [], [], 0
+    while len(calls) < 1000:
+        points = some(rng, rng.integers(2, 9)).round(3)
+        points[rng.uniform(size=len(points)) < 0.2, :2] = 0
+        p0 = [0, 0, 6.5] if rng.uniform() < 0.1 else [4, 0, 2]
+        kind = ("visit", "collect")[len(calls) % 2]
+        question = asked(T=rng.uniform(5, 60), kind=kind, p0=p0, points=points.tolist())
+        if not workspace(5, 4, points).all(axis=-1).any():
+            continue
+        order = rng.permutation(len(points))[: rng.integers(1, len(points) + 1)].tolist()
+        told = live.stored(*live.split_arrays(answered(question, SPEEDS)))
+        told |= {"greedy": None, "best": None}
+        calls.append([data, {"order": order, "best": True}, {"answer": told, "question": question}])
+        wanted.append(by_hand(question, order))
+        on_axis += any(math.hypot(*points[k][:2]) == 0 for k, _ in wanted[-1])
+    got = page.evaluate("all => all.map(each => window.found(...each))", calls)
+    page.close()
+    late = 0
+    for (*_, heard), made, reached in zip(calls, got, wanted, strict=True):
+        T, (_, _, mine), (_, _, cells) = heard["question"]["T"], made["tours"], made["cells"]
+        if not reached:
+            assert mine is None and cells[0] == "–"
+            continue
+        told = re.findall(r"(\d+)\xa0\(([\d.]+)\)", cells[0])
+        assert [int(k) for k, _ in told] == [k for k, _ in reached]
+        assert [float(t) for _, t in told] == pytest.approx([t for _, t in reached], abs=0.00501)
+        fit = [(k, t) for k, t in reached if t <= T]
+        assert mine["order"] == [k for k, _ in fit] and cells[1] == str(len(fit))
+        assert mine["times"] == pytest.approx([t for _, t in fit], abs=1e-9)
+        assert ("too late: " in cells[0]) == (len(fit) < len(reached))
+        assert float(cells[2]) == pytest.approx(fit[-1][1] if fit else 0, abs=0.00501)
+        late += len(fit) < len(reached)
+    assert on_axis > 100 and 200 < late < 900, "too few cases"
 
 
 # --- The explorer in a page -----------------------------------------------------------------------
@@ -178,7 +254,7 @@ def opened(browser, width=1366):
 
 
 def cells(page):
-    """The cells of the table, one row for each tour."""
+    """The cells of the table: the greedy tour, the best one, and the reader's own."""
     rows = page.locator(".rk-tours tbody tr")
     return [
         [cell.replace("\xa0", " ") for cell in row.locator("td").all_inner_texts()]
@@ -190,18 +266,28 @@ def handle(page, name):
     return page.locator(f"[data-handle='{name}']")
 
 
-def test_only_the_clock_works_in_a_saved_page(browser, tmp_path):
+def test_only_the_clock_and_taps_work_in_a_saved_page(browser, tmp_path):
     tour_explorer(CIRCLE).save(tmp_path / "tour.html")
     page = opened(browser, 390)
     page.goto(f"file://{tmp_path}/tour.html")
     page.locator(".rk-asleep", has_text="Inactive").wait_for()
     assert page.evaluate("document.documentElement.scrollWidth") <= 390
     greedy, best = visit(CIRCLE), best_visit(CIRCLE)
-    assert [row[1:] for row in cells(page)] == [
+    assert [row[1:] for row in cells(page)[:2]] == [
         [str(len(r.order)), f"{r.time:.2f}"] for r in (greedy, best)
     ]
     assert page.locator(".rk-side").evaluate("e => e.inert")
-    assert page.locator(".rk-handles").evaluate("e => e.inert")
+    # without Python, no point moves
+    one, place = handle(page, "1"), handle(page, "1").get_attribute("aria-label")
+    box = one.bounding_box()
+    page.mouse.move(box["x"] + 5, box["y"] + 5)
+    page.mouse.down()
+    page.mouse.move(box["x"] + 60, box["y"] + 40)
+    page.mouse.up()
+    for key in ("ArrowUp", "Home"):
+        one.press(key)
+    page.evaluate(FRAMES)
+    assert one.get_attribute("aria-label") == place and cells(page)[2][0] == "–"
 
     picture = "document.querySelector('.rk-scene').toDataURL()"
     scrub = page.get_by_role("slider", name="time")
@@ -220,9 +306,44 @@ def test_only_the_clock_works_in_a_saved_page(browser, tmp_path):
         "wanted one picture at the start, two on the greedy tour and four on the best one"
     )
     scrub.fill("0")
-    page.locator(".rk-clock button").click()
+    page.get_by_role("button", name="play").click()
     page.wait_for_function("+document.querySelector('.rk-clock input').value > 10")
     page.get_by_role("button", name="pause").click()
+    assert not page.complaints
+    page.close()
+
+
+def test_taps_make_an_order_of_ones_own(browser, tmp_path):
+    tour_explorer(CIRCLE, best=False).save(tmp_path / "tour.html")
+    page = opened(browser)
+    page.goto(f"file://{tmp_path}/tour.html")
+    page.locator(".rk-asleep").wait_for()
+    assert cells(page)[1:] == [["–"] * 3] * 2
+    order = []
+    for name, key in (("3", None), ("0", "Enter"), ("2", "Space"), ("0", None), ("1", None)):
+        handle(page, name).press(key) if key else handle(page, name).click()
+        page.evaluate(FRAMES)
+        k = int(name)
+        order = [each for each in order if each != k] if k in order else [*order, k]
+        reached = by_hand(asked(), order)
+        count = sum(t <= CIRCLE.T for _, t in reached)
+        assert re.findall(r"(\d) \(", cells(page)[2][0]) == [str(each) for each in order]
+        assert cells(page)[2][1:] == [str(count), f"{([0] + [t for _, t in reached])[count]:.2f}"]
+        assert (
+            page.locator(".rk-says").inner_text().startswith(f"Your order visits {count} of 4 in ")
+        )
+        assert cells(page)[1] == ["–"] * 3, "the best order is told too early"
+        said = page.locator(".rk-scene").get_attribute("aria-label")
+        assert f"Your order visits {count} of 4 in " in said
+        wanted = f"number {order.index(k) + 1} in your order" if k in order else "2.00 m"
+        assert handle(page, name).get_attribute("aria-label").endswith(wanted)
+    handle(page, "0").click()  # now all points are in the order
+    page.evaluate(FRAMES)
+    assert cells(page)[1] == told(CIRCLE, best_visit)[0]
+    assert page.locator(".rk-says").inner_text().endswith("visits 1 of 4, the best order 3.")
+    page.get_by_role("button", name="Clear order").click()
+    page.evaluate(FRAMES)
+    assert cells(page)[2] == ["–"] * 3 and cells(page)[1] == told(CIRCLE, best_visit)[0]
     assert not page.complaints
     page.close()
 
@@ -315,7 +436,7 @@ def test_late_answer_does_not_undo_changes(slow):
     answer(early[0])
     task = shown_task(page)
     assert (task.T, task.l1, task.l2) == (29, 4.5, 4.2)
-    assert cells(page) == told(task, visit, best_visit)
+    assert cells(page)[:2] == told(task, visit, best_visit)
 
 
 @pytest.mark.parametrize("between", ["sleeps", "wakes twice"])
@@ -330,7 +451,7 @@ def test_unanswered_questions_are_repeated(slow, between):
     again = asked()[1:]
     assert [one["question"] for one in again] == [lost["question"]]
     answer(again[0])
-    assert cells(page) == told(shown_task(page), visit, best_visit)
+    assert cells(page)[:2] == told(shown_task(page), visit, best_visit)
     root.evaluate(WAKE)
     assert len(asked()) == 2, "answered questions are not asked again"
 
@@ -347,7 +468,7 @@ def settled(page, root):
 def shown_task(page):
     """The task that the page shows, read with its button "Copy as Python"."""
     page.evaluate("window.copied = null")
-    page.locator(".rk-word").last.click()  # Copy as Python
+    page.get_by_role("button", name="Copy as Python").click()
     space = {}
     exec(page.wait_for_function("window.copied").json_value(), space)
     return space["task"]
@@ -381,7 +502,7 @@ def _drags(page, root):
         was = handle(page, name).bounding_box()
         drag(page, root, name, dx, dy)
         task = shown_task(page)
-        assert cells(page) == told(task, visit, best_visit)
+        assert cells(page)[:2] == told(task, visit, best_visit)
         seen.append(cells(page))
         assert handle(page, name).bounding_box() != was
     assert len({json.dumps(each) for each in seen}) == 5, "nothing followed the pointer"
@@ -397,11 +518,11 @@ def _typed(page, root):
         settled(page, root)
     task = shown_task(page)
     assert (task.T, task.l1, task.l2) == (29, 4.5, 4.2)
-    assert cells(page) == told(task, visit, best_visit)
+    assert cells(page)[:2] == told(task, visit, best_visit)
     page.get_by_label("task").select_option("1")
     settled(page, root)
     task = shown_task(page)
-    assert task.kind == "collect" and cells(page) == told(task, collect, collect)
+    assert task.kind == "collect" and cells(page)[:2] == told(task, collect, collect)
     page.get_by_label("task").select_option("0")
     handle(page, "1").focus()
     for key in ("ArrowUp", "Shift+ArrowLeft", "ArrowRight"):
@@ -409,7 +530,7 @@ def _typed(page, root):
     settled(page, root)
     moved = shown_task(page)
     assert not np.allclose(moved.points[1], task.points[1])
-    assert cells(page) == told(moved, visit, best_visit)
+    assert cells(page)[:2] == told(moved, visit, best_visit)
     handle(page, "1").press("Home")
     settled(page, root)
     assert np.allclose(shown_task(page).points[1], FOUR[2], rtol=0, atol=1e-4)
@@ -434,7 +555,7 @@ def _out_of_reach(page, root):
         "visit",
     )
     renumbered = {0: 0, 1: 1, 2: 3}
-    for row, rule in zip(cells(page), (visit, best_visit), strict=True):
+    for row, rule in zip(cells(page)[:2], (visit, best_visit), strict=True):
         order = [int(i) for i in re.findall(r"(\d+) \(", row[0])]
         assert order == [renumbered[i] for i in rule(rest).order]
     page.mouse.up()
@@ -443,7 +564,7 @@ def _out_of_reach(page, root):
     assert page.locator(".rk-notes li").count() == 0
     drag(page, root, "p0", 0, 250)
     assert page.locator(".rk-says").inner_text() == "There is no tour."
-    assert [row[0] for row in cells(page)] == ["–", "–"]
+    assert [row[0] for row in cells(page)] == ["–"] * 3
     handle(page, "p0").press("Home")
     settled(page, root)
 
@@ -453,13 +574,13 @@ def _many(page, root):
         page.get_by_role("button", name="Add a point").click()
         settled(page, root)
     task = shown_task(page)
-    assert len(task.points) == 12 and cells(page) == told(task, visit, best_visit)
+    assert len(task.points) == 12 and cells(page)[:2] == told(task, visit, best_visit)
     drag(page, root, "4", 15, 12, drop=False)
     assert cells(page)[1] == ["–"] * 3 and "let go" in page.locator(".rk-says").inner_text()
     page.mouse.up()
     settled(page, root)
     task = shown_task(page)
-    assert cells(page) == told(task, visit, best_visit)
+    assert cells(page)[:2] == told(task, visit, best_visit)
     for left in (11, 10):
         page.get_by_role("button", name="Remove point").click()
         settled(page, root)
@@ -468,4 +589,4 @@ def _many(page, root):
     assert cells(page)[1][0] != "–", "no best order of ten points while one is held"
     page.mouse.up()
     settled(page, root)
-    assert cells(page) == told(shown_task(page), visit, best_visit)
+    assert cells(page)[:2] == told(shown_task(page), visit, best_visit)

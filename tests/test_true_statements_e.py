@@ -36,7 +36,7 @@ from robokin import (
 from robokin.course import book
 from robokin.jobs.obstacles import in_quadrilateral, plan, via_path
 from robokin.jobs.steppers import Stepper, phases, ramp, station_postures
-from robokin.jobs.visit_collect import Task, TaskError
+from robokin.jobs.visit_collect import Task, TaskError, principal_postures
 
 LINE = book.lab("puma560_branches").module("predictions")
 LOADER = loader_arm(450 * mm, 300 * mm)
@@ -498,24 +498,36 @@ def test_most_short_lines_keep_their_row():
 
 
 def test_motion_starts_gently_and_the_slider_sets_the_mean_speed():
-    assert "`motion` starts and stops gently, so its greatest speed is 15/8" in flat("08", "able")
+    words = flat("08", "time-look")
+    assert "the player starts and stops gently, so its greatest speed is 15/8 of the mean" in words
     u = np.linspace(0, 1, 20001)
     law = 10 * u**3 - 15 * u**4 + 6 * u**5
     assert np.diff(law).max() * 20000 == pytest.approx(15 / 8, abs=1e-6)
-    assert "the mean speed of joint 1," in flat("08", "time-look")
+    assert "Choose a mean speed of joint 1 with the slider" in flat("08", "time-take")
     (most,) = numbers(
         r"greatest speed of \d+ samples (\S+) °/s \(joint 1\)", shown("08", "time-player")
     )
     assert most == pytest.approx(0.2 / deg * 15 / 8, abs=0.05)
-    assert "for its distance from the axis, with a sign (m)" in flat("08", "chain-formula")
+    assert "the distance of the tool from axis 1 (with a sign; all lengths in m)" in flat(
+        "08", "chain-formula"
+    )
     q2 = -60 * deg
     assert 5 * np.sin(q2) + 4 * np.cos(q2) == pytest.approx(-2.33, abs=0.005)
 
 
+def test_joint_1_decides_up_to_the_stated_speed_of_the_slider():
+    (stated,) = numbers(r"Up to (\S+) rad/s on this slider", flat("08", "time-look"))
+    starts, ends = principal_postures(5, 4, [[1, 1, 1], [1, 3, 3]])
+    turns = abs(ends - starts)
+    speeds = np.array([0.05, 0.075, 0.1, 0.125, 0.15, 0.2])
+    last = [int(np.argmax(turns / np.array([v, 0.2, 0.2]))) + 1 for v in speeds]
+    assert [v for v, joint in zip(speeds, last, strict=True) if joint == 1][-1] == stated
+    assert set(last) == {1, 3} and "From there on joint 3 arrives last" in flat("08", "time-look")
+
+
 def test_other_elbow_exceeds_its_limit_except_at_the_workspace_boundary():
-    assert "off the borders, with the elbow flag −1 joint 3 is past its limit" in flat(
-        "08", "rows-look"
-    )
+    words = flat("08", "rows-look")
+    assert "With the elbow flag −1, joint 3 is past its limit, except on the border" in words
     arm, rng = spbu_arm(5, 4), np.random.default_rng(8)
     low, high = arm.limits[2]
     points = rng.uniform([-9, -9, 0], 9, (4000, 3))
@@ -528,7 +540,9 @@ def test_other_elbow_exceeds_its_limit_except_at_the_workspace_boundary():
 
 
 def test_at_most_ten_reasons_of_one_kind_are_listed():
-    assert "names what is wrong, ten of one kind at most" in flat("08", "deeper-command")
+    assert "names what is wrong, with at most ten reasons of one kind" in flat(
+        "08", "deeper-command"
+    )
     far = [[20 + k, 0, 0] for k in range(15)]
     with pytest.raises(TaskError) as told:
         Task(5, 4, T=-1, speeds=[0.2] * 3, p0=[2, 2, 1], points=far, kind="visit")

@@ -362,7 +362,7 @@ CALLS = {
         dict(arm=two_link(1, 1), tip=np.array([0.5, 0.5]), divisor="x3"),
     ),
     "target_explorer": (figures.target_explorer, dict(arm=SCARA, target=PLACE, zone=True)),
-    "tour_explorer": (figures.tour_explorer, dict(task=TASK)),
+    "tour_explorer": (figures.tour_explorer, dict(task=TASK, best=True)),
     "motion_explorer": (
         figures.motion_explorer,
         dict(

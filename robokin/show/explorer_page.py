@@ -277,13 +277,16 @@ class PlanPage(LivePage):
 
 
 class TourPage(LivePage):
-    """The data of the explorer of tours: the names of the kinds of tasks and of the tours, the
-    maximum number of points, and the places of points that the reader adds.
+    """The data of the explorer of tours: the names of the kinds of tasks and of the tours, whether
+    the best one is shown at first, the speeds of the joints (rad/s), the maximum number of points,
+    and the places of points that the reader adds.
     """
 
     kind: Literal["tour"]
     kinds: list[str]
     tours: list[str]
+    best: bool
+    speeds: list[float]
     most: int
     spare: list[list[float]]
 

@@ -36,7 +36,8 @@ class Live(Explorer):
     """An explorer that asks a kernel. It displays itself in a notebook; `save` writes it as a page,
     in which it is inactive.
 
-    data    a `page.PlanPage` or `TourPage`, without `first` and without the words of this module
+    data    a `page.PlanPage` or `TourPage`, without `first`; its words may replace those of this
+            module
     still   the still picture, as in every `Explorer`
     first   the question that is asked first; its answer is stored
     answer  a function that maps a question (JSON values) to an answer, a dict of JSON values and
@@ -51,7 +52,7 @@ class Live(Explorer):
         answer: Callable[[Question], Answer],
     ) -> None:
         content, buffers = split_arrays(answer(first))
-        words = {**data["words"], **WORDS}
+        words = {**WORDS, **data["words"]}
         data = data | {"words": words, "first": stored(content, buffers), "question": first}
         super().__init__(data, still)
         self.answer = answer

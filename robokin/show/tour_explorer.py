@@ -1,8 +1,9 @@
-"""The explorer of tours: points, start and links that the reader can change; Python computes the
-greedy tour and the best one.
+"""The explorer of tours: points, start and links that the reader can change, and an order of the
+points that the reader chooses; Python computes the greedy tour and the best one.
 
-The page draws, and asks a kernel whenever something moves (see `live`). As in a `Task`, points are
-numbered from 0. All the text of the page is in this module.
+The page draws, and asks a kernel whenever something moves (see `live`). It computes the tour in the
+reader's order itself. As in a `Task`, points are numbered from 0. All the text of the page is in
+this module.
 """
 
 import re
@@ -11,7 +12,7 @@ from collections.abc import Sequence
 import numpy as np
 
 from .._arrays import Bools, Floats, Ints
-from .._validate import instance
+from .._validate import instance, short
 from ..arms import Arm, spbu_arm
 from ..jobs.visit_collect import (
     Result,
@@ -41,12 +42,21 @@ from .twin import chain
 MOST = 12  # maximum number of points: the page stays legible, and the best order takes about 10 ms
 WHILE_HELD = 10  # with more points, the best order is computed only after the reader lets go
 KINDS = ("visit", "collect")
-TOURS = ("greedy", "best")
+TOURS = ("greedy", "best", "yours")
 GREEDY, BEST = JOINT_STYLES[1]["color"], JOINT_STYLES[0]["color"]
 WORDS = {
     "task": "task",
     "tour": "tour",
     "order": "order, and when (s)",
+    "visit": "Your order visits {count} of {n} in {t} s.",
+    "collect": "Your order brings {count} of {n} in {t} s.",
+    "late": "too late:",
+    "rank": ", number {rank} in your order",
+    "clear": "Clear order",
+    "veiled": "The best order appears when all points are in your order.",
+    "scene": "An arm and {n} points.",
+    "asleep": "Inactive: moving the points needs Python. Run this cell to activate it. Until then, "
+    "you can tap the points in an order of your own, and play the tours.",
     "count": "within T",
     "time": "time, s",
     "add": "Add a point",
@@ -58,26 +68,31 @@ WORDS = {
     "away": "out of reach",
 }
 MEANT = (
-    "Drag p0 and the points: they move in the plane of the screen; turn the view to move them "
-    "another way. Click a row of the table to choose its tour, and play it. The number above a "
-    "point is its place in the greedy tour, the number below it is its place in the best one. The "
-    "dotted circle shows how far the arm reaches on the floor; a wide red band shows where the "
-    "tool dips under the floor."
+    "Tap the points in an order of your own, or drag them. A second tap takes a point out of your "
+    "order. A drag moves a point or p0 in the plane of the screen; turn the view to move it "
+    "another way. Click a row of the table to choose its tour, and play it. The dotted circle "
+    "shows how far the arm reaches on the floor; a wide red band shows where the tool dips under "
+    "the floor."
 )
 
 
-def tour_explorer(task: Task) -> Live:
+def tour_explorer(task: Task, *, best: bool = True) -> Live:
     """Show the start and the points of a task, which the reader can drag, with sliders for the
     links and the time and a menu for visit or collect. The page draws the greedy tour (`visit`,
-    `collect`) and the best one (`best_visit`) as paths of the tool, says what the greedy tour
-    loses, and has a clock that moves the arm along either tour.
+    `collect`), the best one (`best_visit`) and the one in the order in which the reader taps the
+    points, as paths of the tool. It compares them in a table, and has a clock that moves the arm
+    along any of them. With `best=False`, the best tour appears once all points are in the reader's
+    order.
 
-    The explorer asks the kernel (see `live`); its clock also runs without a kernel. Raises
-    TypeError if `task` is not a Task, and ValueError if it has more than MOST points.
+    The explorer asks the kernel (see `live`); the reader's order and the clock also work without a
+    kernel. Raises TypeError if `task` is not a Task, and ValueError if it has more than MOST points
+    or `best` is not a bool.
     """
     count = len(instance(task, Task, "task").points)
     if count > MOST:
         raise ValueError(f"task: wanted at most {MOST} points, got {count}")
+    if not isinstance(best, bool):
+        raise ValueError(f"best: wanted True or False, got {short(best)}")
 
     def answer(question: Question) -> Answer:
         return answered(question, task.speeds)
@@ -92,26 +107,30 @@ def tour_explorer(task: Task) -> Live:
         "held": False,
     }
     arm, told = spbu_arm(task.l1, task.l2), answer(first)
+    if not best:
+        told |= {"best": None, "says": f"{told['alone']} {WORDS['veiled']}"}
     name, size = length_unit(extent(arm))
     length = 1.0 if name == "m" else 10.0
     reach = extent(arm) / size
-    short = min(0.1 * reach, task.l1 / size, task.l2 / size)
-    alt = f"An arm and {count} points to be moved. {' '.join([told['says'], *told['notes']])}"
+    least = min(0.1 * reach, task.l1 / size, task.l2 / size)
+    alt = " ".join([WORDS["scene"].format(n=count), told["says"], *told["notes"]])
     data: TourPage = {
         "kind": "tour",
-        "title": "Which order? Move the points",
+        "title": "Which order is best? Tap the points",
         "summary": alt,
         "alt": alt,
         "unit": {"name": name, "size": size, "code": name},
         "scene": _scene(arm, task),
         "controls": [
-            control("L1", name, short, reach, 0.1 * length, 2),
-            control("L2", name, short, reach, 0.1 * length, 2),
+            control("L1", name, least, reach, 0.1 * length, 2),
+            control("L2", name, least, reach, 0.1 * length, 2),
             control("T", "s", 0, max(10, np.ceil(task.T / 2.5) * 10), 0.1, 2),
         ],
         "words": WORDS,
         "kinds": list(KINDS),
         "tours": list(TOURS),
+        "best": best,
+        "speeds": task.speeds.tolist(),
         "most": MOST,
         "spare": [rounded(p, 4) for p in _spare(task)],
         "meant": MEANT,
@@ -131,9 +150,12 @@ def answered(question: Question, speeds: Floats) -> Answer:
     chain         the links of the arm, for the page's `frames`
     reached       whether each point is in the workspace
     start         whether p0 is in the workspace
+    postures      the joint values of p0 and of each point; None: out of reach, or a free joint
     greedy, best  each tour: t (k,) and q (k, 3) at every stop, `order` and `times` of the points
                   served, `cells` of the table; None if there is no tour, or none yet
     says          what the greedy tour loses
+    alone         how many points the greedy tour serves
+    among         the number of points in reach, as text
     notes         the points out of reach, and where the tool dips below the floor
     """
     l1, l2 = question["l1"], question["l2"]
@@ -143,13 +165,15 @@ def answered(question: Question, speeds: Floats) -> Answer:
         "chain": chain(spbu_arm(l1, l2).links),
         "start": bool(inside[0]),
         "reached": inside[1:].tolist(),
+        "postures": [None] * len(inside),
         "greedy": None,
         "best": None,
         "notes": _lost(l1, l2, question["p0"], points, inside),
     }
     served = np.flatnonzero(inside[1:])
     if not inside[0] or not len(served):
-        return said | {"says": "There is no tour."}
+        none = "There is no tour."
+        return said | {"says": none, "alone": none, "among": "0"}
     kind = question["kind"]
     task = Task(l1, l2, question["T"], speeds, question["p0"], points[served], kind)
     results = {"greedy": collect(task) if kind == "collect" else visit(task)}
@@ -158,15 +182,24 @@ def answered(question: Question, speeds: Floats) -> Answer:
         results["best"] = results["greedy"]  # the greedy choice is optimal: errata S0-r
     elif kind == "visit" and not (question["held"] and len(served) > WHILE_HELD):
         results["best"] = best_visit(task)
+    for k, q in zip([0, *(served + 1)], task.q.tolist(), strict=True):
+        said["postures"][k] = [None if np.isnan(x) else x for x in q]
     for name, result in results.items():
         said[name], dips = _tour(task, result, served)
         if dips and dips not in said["notes"]:
             said["notes"].append(dips)
     among = f"{len(served)}" if inside.all() else f"{len(served)} in reach"
-    return said | {"says": _says(task, results, among)}
+    alone = _alone(task, results["greedy"], among)
+    return said | {"says": _says(task, results, among), "alone": alone, "among": among}
 
 
 # --- Sentences and tours for the page -------------------------------------------------------------
+
+
+def _alone(task: Task, greedy: Result, n: str) -> str:
+    """Say how many points the greedy tour serves; `n` is the number of points, as text."""
+    does = "Cheapest first brings" if task.kind == "collect" else "Nearest first visits"
+    return f"{does} {len(greedy.order)} of {n}."
 
 
 def _says(task: Task, results: dict[str, Result], n: str) -> str:
@@ -178,7 +211,7 @@ def _says(task: Task, results: dict[str, Result], n: str) -> str:
             return f"Cheapest first brings {few} of {n}; p0 is on axis 1: more may be possible."
         return f"Cheapest first brings {few} of {n} in {greedy.time:.2f} s; no choice brings more."
     if best is None:
-        return f"Nearest first visits {few} of {n}. The best order comes when you let go."
+        return f"{_alone(task, greedy, n)} The best order comes when you let go."
     if lost := len(best.order) - few:
         return (
             f"Greed loses {_points(lost)}: nearest first visits {few} of {n}, the best order "
@@ -271,7 +304,7 @@ def _spare(task: Task) -> Floats:
 
 
 def _picture(alt: str, arm: Arm, task: Task, told: Answer) -> plots.Figure:
-    """Draw the arm at the start, and both tours."""
+    """Draw the arm at the start, and the tours in `told`."""
     fig = plots.figure(alt, width=6.4, height=4.5)
     fig.text(0.016, 0.985, told["says"], fontsize=10, fontweight="bold", va="top")
     scene = Scene(fig.add_axes((0, 0, 1, 0.93)), size=extent(arm), like=_scene(arm, task))

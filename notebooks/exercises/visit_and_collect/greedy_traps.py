@@ -11,7 +11,7 @@ from robokin.course.told import apart, floats
 from robokin.course.variants import Numbers, dice
 from robokin.jobs.visit_collect import Task, best_visit, collect, out_of_workspace, visit
 
-from .shared import L1, L2, Floats, costs
+from .shared import FOUR, L1, L2, Floats, costs
 
 Fault = tuple[str, str]
 Traps = dict[str, Floats | None]  # None: no trap
@@ -22,13 +22,12 @@ LOST = 2  # points
 TASKS = ("visit", "collect", "worth")
 NO_TRAP = "no trap"
 NOBODY = "your name"  # the placeholder in the lab
-# the points of the lab's opening
-KNOWN = 4 * np.array([[np.cos(a), np.sin(a), 0.5] for a in (1.0, -1.1, -1.2, -1.3)])
+KNOWN = np.array(FOUR)
 GIVEN_UP = {
     "visit": "What a point costs depends on where the arm comes from: the opening has such a case, "
-    "for other numbers.",
-    "worth": "The cheapest objects are the most of them, and need not be worth the most: let a "
-    "cheap one use up the time that a dear one needs.",
+    "with other numbers.",
+    "worth": "Cheapest first brings the most objects, but they need not be worth the most: let a "
+    "cheap one use up the time that the valuable one needs.",
 }
 
 
@@ -123,7 +122,7 @@ def scores(task: str, points: Floats, numbers: Any) -> str:
 
 def holds(traps: Traps, numbers: Any) -> list[str]:
     told = [scores(task, points, numbers) for task, points in traps.items() if points is not None]
-    told.append('"collect": no trap, and the proof of section 6 says why.')
+    told.append('"collect": no trap, and the proof of section 2 says why.')
     if numbers == given(NOBODY):
         told.append(f'These numbers belong to "{NOBODY}": give your own name.')
     return told
@@ -141,11 +140,11 @@ def trap_fault(task: str, points: Floats | None, numbers: Any) -> Fault | None:
         return ("given up, where there is a trap", says) if task in GIVEN_UP else None
     fault = places_fault(task, points, numbers)
     if task == "collect":
-        says = '"collect": look at the proof of section 6 before you build.'
+        says = '"collect": look at the proof of section 2 before you build.'
         if not fault:
             says = (
                 f"{scores(task, points, numbers)} No four points change that: any k objects cost "
-                "at least as much as the k cheapest (section 6)."
+                "at least as much as the k cheapest (section 2)."
             )
         return "a trap against a proof", says
     return fault or not_beaten(task, points, numbers)
@@ -161,7 +160,7 @@ def places_fault(task: str, points: Floats, numbers: Any) -> Fault | None:
         a, b = (int(k) for k in np.unravel_index(gaps.argmin(), gaps.shape))
         names = ["p0", *(f"point {k}" for k in range(4))]
         near, wanted = apart(gaps.min(), APART, 2)
-        says = f"{names[a]} and {names[b]} are {near} m apart, wanted are {wanted} m."
+        says = f"{names[a]} and {names[b]} are {near} m apart. They need {wanted} m."
         return "too near to each other", f'"{task}": {says}'
     return None
 
@@ -177,22 +176,25 @@ def known(points: Floats) -> bool:
 def not_beaten(task: str, points: Floats, numbers: Any) -> Fault | None:
     """Why allowed points are not a trap for the greedy rule of "visit" or "worth"."""
     if known(points):
-        says = "these are the four points of the opening. Build your own, for your start and time."
+        says = "these are the four points of the opening. Build your own for your start and time."
         return "the lab's own points", f'"{task}": {says}'
     greedy, best = both(task, points, numbers)
     told = scores(task, points, numbers)
     if not best:
-        return "nothing in time", f"{told} Not even the nearest one is in time: come nearer."
+        return (
+            "nothing in time",
+            f"{told} Not even the nearest point is reached in time: move the points nearer.",
+        )
     if len(greedy) == 4:
-        return "all in time", f"{told} There is time for all of them: spread them."
+        return "all in time", f"{told} There is time for all of them: move them farther apart."
     if task == "visit" and len(best) - len(greedy) < LOST:
         if len(best) == len(greedy):
             return "the rule is not beaten", f"{told} No order does better."
-        return "one point lost, not two", f"{told} One more, and it is a trap."
+        return "one point lost, not two", f"{told} If it loses one more, it is a trap."
     if task == "worth":
         first, most = worths(numbers, greedy, best)
         if first == most:
             return "the rule is not beaten", f"{told} No choice is worth more."
         if 2 * first > most:
-            return "less than half is lost", f"{told} Wanted is at most half."
+            return "less than half is lost", f"{told} Cheapest first must bring at most half."
     return None

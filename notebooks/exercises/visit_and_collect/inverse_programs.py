@@ -21,7 +21,8 @@ def refusal(inputs: tuple[Any, ...], result: Any) -> str:
     else:
         off = float(np.linalg.norm(ARM.fk(q).translation - p))
         why = f"inside the limits, with the tool {off:.1g} m from the point."
-    return f"The last point before its no: {in_words(p)} m. The answer: {in_words(q)} rad; {why}"
+    called = f"Your test last called it with the point {in_words(p)} m"
+    return f"{called}. It returned {in_words(q)} rad: {why}"
 
 
 def point(p: Any) -> Floats:

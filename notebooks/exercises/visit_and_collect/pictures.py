@@ -6,12 +6,12 @@ from typing import Any
 import numpy as np
 
 from robokin import deg, ptp
-from robokin.jobs.visit_collect import principal_postures
-from robokin.show import Sketch, bars, figure
+from robokin.jobs.visit_collect import Task, best_visit, principal_postures, visit
+from robokin.show import Sketch, curves, figure
 from robokin.show.palette import INK, SOFT
 
-from .predictions import DIP, LOW1, p1, p2, p3, p6, p7, p8
-from .shared import ARM, L1, L2
+from .predictions import DIP, LOW1, p1, p2, p3, p7, p8
+from .shared import ARM, FOUR, L1, L2
 
 SIDE: dict[str, Any] = {"unit": "m", "x": "distance from the axis", "y": "height"}
 
@@ -21,7 +21,7 @@ def p1_view() -> Any:
         f"Side view at q1 = q2 = 90 degrees and q3 = 0: link 1 lies flat, {L1:g} m long, link 2 "
         f"hangs from its end, and the tool is {p1()['z']:g} m under the floor."
     )
-    title = "Link 1 flat, link 2 square to it: downwards"
+    title = "Link 1 lies flat, and link 2 hangs down"
     sketch = Sketch(says, title=title, **SIDE | {"x": "y", "height": 3.6})
     sketch.levers([(0, 0), (L1, 0), (L1, -L2)], ["O1", "O2", "tool"])
     sketch.ax.axhline(0, color=SOFT, lw=1)
@@ -31,8 +31,8 @@ def p1_view() -> Any:
 
 def p2_view() -> Any:
     q3 = p2()["q3"]
-    says = f"The stretched arm, flat: link 2 is {abs(q3):.0f} degrees above the square to link 1."
-    title = f"Stretched: link 2 is {abs(q3):.0f}° above its square to link 1"
+    says = f"The stretched arm, flat: link 2 is {abs(q3):.0f} degrees above its place at q3 = 0."
+    title = f"Stretched: link 2 is {abs(q3):.0f}° above its place at q3 = 0"
     sketch = Sketch(says, title=title, height=3.6, **SIDE)
     sketch.levers([(0, 0), (L1, 0), (L1 + L2, 0)], ["O1", "", "tool"])
     sketch.ax.text(L1, 0.25, "O2", ha="center", fontsize=12)
@@ -81,26 +81,30 @@ def p4_view() -> Any:
 def p5_view() -> Any:
     return (
         "With prices: objects of 5, 5 and 9 s, and T = 10 s. The two cheapest fit. At prices of 1, "
-        "1 and 10 they bring 2, and the dear one alone 10. Unlike speeds only put other numbers in "
-        "the place of 5, 5 and 9 s, and the proof holds for any numbers."
+        "1 and 10 they bring 2, but the third object alone brings 10. Different speeds only "
+        "replace 5, 5 and 9 s by other numbers, and the proof holds for any numbers."
     )
 
 
 def p6_view() -> Any:
-    some, counts = p6()["some"], p6()["counts"]
-    says = (
-        f"Bars: nearest first loses no point in {counts[0]} of 200 random tasks, one in "
-        f"{counts[1]}, two in {counts[2]}, three in {counts[3]}."
+    times = np.linspace(0, 20, 401)
+    tasks = [Task(L1, L2, T, [0.2] * 3, [4, 0, 2], FOUR, "visit") for T in times]
+    few, many = ([len(rule(task).order) for task in tasks] for rule in (visit, best_visit))
+    both = times[np.equal(few, 4)].min()
+    fig = figure(
+        f"Points touched within T: the best order touches three from 6.5 s on; nearest first "
+        f"touches one up to {times[np.equal(few, 1)].max():.1f} s, and all four from {both:.1f} s.",
+        height=2.8,
     )
-    fig = figure(says, height=2.8)
     ax = fig.subplots()
-    bars(
+    curves(
         ax,
-        dict(zip(("none", "1 point", "2 points", "3 points"), counts[:4], strict=True)),
-        xlabel="tasks of 200, seven random points each",
-        title=f"Nearest first loses a point or more in {some} of 200 tasks",
+        times,
+        {"nearest first": few, "best order": many},
+        xlabel="time allowed T, s",
+        ylabel="points touched",
+        title="Nearest first pays for the lure with the way back",
     )
-    ax.set_xlim(0, 200)
     fig.tight_layout()
     return fig
 

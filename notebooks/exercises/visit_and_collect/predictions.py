@@ -8,10 +8,10 @@ from typing import Any
 
 import numpy as np
 
-from robokin import deg, within
+from robokin import deg, mm, within
 from robokin.jobs import visit_collect as jobs
 
-from .shared import ARM, L1, L2, STOPS, Floats, costs, drawn, each_needs
+from .shared import ARM, FOUR, L1, L2, Floats, costs, drawn, each_needs
 
 
 def p1() -> dict[str, Any]:
@@ -22,7 +22,9 @@ def p1() -> dict[str, Any]:
 
 def p2() -> dict[str, Any]:
     q3 = float(jobs.principal_postures(L1, L2, [L1 + L2, 0, 0])[2]) / deg
-    return {"q3": q3, "zero": 0.0, "plus": 90.0, "half": 180.0, "right": "stretched"}
+    return {"q3": q3, "zero": 0.0, "plus": 90.0, "half": 180.0, "radians": q3 * deg} | {
+        "right": "stretched"
+    }
 
 
 @cache
@@ -33,14 +35,15 @@ def p3() -> Mapping[str, Any]:
     count = within(ARM, ARM.ik(cloud)).all(axis=-1).sum(axis=-1)
     radius = np.hypot(cloud[:, 0], cloud[:, 1]).astype(int)
     shares = [float(100 * (count[radius == k] == 2).mean()) for k in range(9)]
-    share = 100 * float((count == 2).mean())
-    few = "none" if share == 0 else "1 in 10"
+    d = np.linalg.norm(cloud, axis=-1)
+    beta = np.arccos(np.clip((L1**2 + d**2 - L2**2) / (2 * L1 * d), -1, 1))
+    rises = np.arcsin(cloud[:, 2] / d) >= beta
     return {
         "n": len(cloud),
         "two": int((count == 2).sum()),
         "far": shares[-1],
         "shares": shares,
-        "right": few if share < 25 else "about half" if share < 75 else "all of them",
+        "right": "high up" if ((count == 2) == rises).all() else "all of them",
     }
 
 
@@ -104,23 +107,16 @@ def p5() -> Mapping[str, Any]:
 
 @cache
 def p6() -> Mapping[str, Any]:
-    """Points that nearest first loses in 200 random tasks, compared with all 5040 orders."""
-    lost = []
-    for seed in range(200):
-        task = drawn(seed)
-        legs = jobs.travel_time(task.q[:, None], task.q, task.speeds)
-        arrivals = legs[STOPS[:, :-1], STOPS[:, 1:]].cumsum(axis=-1)
-        lost.append(int((arrivals <= task.T).sum(axis=-1).max()) - len(jobs.visit(task).order))
-    none, one, *more = counts = np.bincount(lost, minlength=4).tolist()
-    p, z2 = 1 - none / 200, 1.96**2 / 200  # Wilson's interval for a share
-    middle, half = p + z2 / 2, np.sqrt(z2 * (p * (1 - p) + z2 / 4))
-    share = (200 - none) / 2
-    few = "at most 5" if share < 3 else "6 to 39"
-    right = few if share < 20 else "40 to 99" if share < 50 else "at least half"
-    facts = {"n": 200, "last": 199, "share": share, "right": right, "counts": counts}
-    facts |= {"some": 200 - none, "none": none, "one": one, "more": sum(more)}
-    low, high = (100 * (middle + side) / (1 + z2) for side in (-half, half))
-    return facts | {"low": low, "high": high}
+    """How many points both rules touch in the task of the opening, with twice its time."""
+    task = jobs.Task(L1, L2, 15.0, [0.2] * 3, [4, 0, 2], FOUR, "visit")
+    ways = jobs.travel_time(task.q[0], task.q[1:], task.speeds)
+    few, best = jobs.visit(task), jobs.best_visit(task)
+    first, second = (float(t) for t in sorted(ways)[:2])
+    right = ("none", "one", "two", "three", "four")[len(few.order)]
+    facts = {"T": task.T, "ways": ", ".join(f"{t:.1f}" for t in ways), "best": len(best.order)}
+    facts |= {"first": first, "second": second, "leg": first + second}
+    facts |= {"next": 2 * first + second, "right": right}
+    return facts | {"all": jobs.best_visit(replace(task, T=1000.0)).time}
 
 
 LOW1, LOW2 = 4.0, 5.0  # m, so that the answer is a round number
@@ -132,7 +128,8 @@ def p7() -> dict[str, Any]:
     height = float(points[served.argmax(), 2])
     facts = {"l1": LOW1, "l2": LOW2, "height": height, "triangle": LOW2 - LOW1, "floor": 0.0}
     square = float(np.hypot(LOW1, LOW2))
-    return facts | {"square": square, "top": LOW1 + LOW2, "right": "elbow on the floor"}
+    facts |= {"square": square, "top": LOW1 + LOW2, "mm": height / mm}
+    return facts | {"right": "elbow on the floor"}
 
 
 DIP = np.array([[6.0, 0, 1], [1.05, 0, 0.1]])  # m

@@ -1,7 +1,5 @@
 """Code that exercises and predictions of this lab share."""
 
-from itertools import permutations
-
 import numpy as np
 from numpy.typing import NDArray
 
@@ -11,7 +9,7 @@ from robokin.jobs.visit_collect import Task, travel_time, workspace
 Floats = NDArray[np.float64]
 L1, L2 = 5.0, 4.0  # m, source 000, examples 2 and 3
 ARM = spbu_arm(L1, L2)
-STOPS = np.array([(0, *order) for order in permutations(range(1, 8))])  # the start, then any order
+FOUR = [[2.16, 3.37, 2], [1.81, -3.56, 2], [1.45, -3.73, 2], [1.07, -3.85, 2]]  # m, of the opening
 
 
 def filled(q: Floats) -> Floats:

@@ -32,6 +32,7 @@ export const reachOf = camera => (large() ? 84 : 60) / camera.scale;
  *   called with the displacement of the pointer since then
  * @property {(right: number, up: number, big: boolean) => void} step  reacts to an arrow key
  * @property {() => void} home  moves it back to where it began
+ * @property {() => void} [tap]  reacts to a tap, a click, Enter and Space
  */
 /** @typedef {ReturnType<typeof handleLayer>} HandleLayer */
 
@@ -114,7 +115,8 @@ function button(handle, {camera, hold, changed}) {
     handle.mark || "",
   );
   if (handle.color) node.style.setProperty("--own", `var(--rk-${handle.color})`);
-  let from = [0, 0];
+  let from = [0, 0],
+    tapped = false;
   /** @type {?Drag} */
   let move = null;
   node.addEventListener("pointerdown", event => {
@@ -122,11 +124,16 @@ function button(handle, {camera, hold, changed}) {
     node.focus();
     node.setPointerCapture(event.pointerId);
     [from, move] = [[event.clientX, event.clientY], handle.grab(camera())];
+    tapped = !!handle.tap;
     hold(handle.id);
   });
   node.addEventListener("pointermove", event => {
     if (!move) return;
-    move(event.clientX - from[0], event.clientY - from[1]);
+    const dx = event.clientX - from[0],
+      dy = event.clientY - from[1];
+    if (tapped && Math.hypot(dx, dy) <= TAP) return;
+    tapped = false;
+    move(dx, dy);
     changed();
   });
   const drop = () => {
@@ -137,6 +144,10 @@ function button(handle, {camera, hold, changed}) {
   };
   for (const end of ["pointerup", "pointercancel", "lostpointercapture"])
     node.addEventListener(end, drop);
+  // the keyboard causes a click without a pointer, whose detail is 0
+  node.addEventListener("click", event => {
+    if (tapped || !event.detail) handle.tap?.();
+  });
   node.addEventListener("keydown", event => {
     const way = STEPS[event.key];
     if (event.key === "Home") handle.home();
@@ -183,6 +194,7 @@ function placed(handle, camera, taken, canvas) {
   return /** @type {Pixel} */ ([x, y]);
 }
 
+const TAP = 4; // px: a pointer that moves less far has tapped
 /** @type {Object<string, [number, number]>} */
 const STEPS = {ArrowLeft: [-1, 0], ArrowRight: [1, 0], ArrowUp: [0, 1], ArrowDown: [0, -1]};
 

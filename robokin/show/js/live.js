@@ -29,6 +29,7 @@ const SLOW = 100;
  *                kernel is busy.
  *
  * While the view is inactive, its controls and handles are disabled, and a sentence says why.
+ * Handles that also react to taps (`rk-taps`) stay enabled; they check `awake` before they move.
  * `root.dataset` contains `awake` while it is active, and the numbers of the last question `asked`
  * and of the last question `answered`.
  *
@@ -90,7 +91,7 @@ class Questions {
   stir(awake, sentence = "") {
     this.root.toggleAttribute("data-awake", awake);
     const parts = /** @type {NodeListOf<HTMLElement>} */ (
-      this.root.querySelectorAll(".rk-handles, .rk-side")
+      this.root.querySelectorAll(".rk-handles:not(.rk-taps), .rk-side")
     );
     for (const part of parts) part.inert = !awake;
     this.says.textContent = sentence;

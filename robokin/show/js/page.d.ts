@@ -591,6 +591,8 @@ export interface TourPage {
   kind: "tour";
   kinds: string[];
   tours: string[];
+  best: boolean;
+  speeds: number[];
   most: number;
   spare: number[][];
 }

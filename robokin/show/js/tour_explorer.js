@@ -1,5 +1,6 @@
-// The explorer of tours: points to drag, the tours that a kernel computes (live.js), and a clock
-// that moves the arm along them and needs no kernel. The text comes from Python (tour_explorer.py).
+// The explorer of tours: points to drag, and the tours that a kernel computes (live.js). The
+// reader's own order, the tour through it, and the clock that moves the arm along a tour need no
+// kernel. The text comes from Python (tour_explorer.py).
 
 import {number} from "./canvas.js";
 import {clockRow, runningClock} from "./clock.js";
@@ -11,7 +12,8 @@ import {plus} from "./kinematics.js";
 import {kernelOf, joinArrays} from "./live.js";
 import {beside, menu, slider, stageOf, wordButton} from "./stage.js";
 import {table} from "./table.js";
-import {below, mark, toured} from "./tour_picture.js";
+import {found} from "./own_tour.js";
+import {below, mark} from "./tour_picture.js";
 import {plain} from "./turns.js";
 import {point} from "./mark.js";
 
@@ -23,7 +25,7 @@ import {point} from "./mark.js";
 /** @import {Tour} from "./tour_picture.js" */
 
 /** @typedef {With<TourPage, "question" | "first">} TourExplorer */
-/** @typedef {"greedy" | "best"} TourName */
+/** @typedef {"greedy" | "best" | "yours"} TourName */
 /**
  * A question: a task, and whether the reader is still dragging (`held`).
  * @typedef {object} Question
@@ -36,7 +38,7 @@ import {point} from "./mark.js";
  * @property {boolean} held
  */
 /**
- * A tour from Python: the times and postures of the stops, and the points served with their times.
+ * A tour: the times and postures of the stops, and the points served with their times.
  * @typedef {object} FoundTour
  * @property {Values} t
  * @property {Values} q
@@ -50,15 +52,20 @@ import {point} from "./mark.js";
  * @property {PageLink[]} chain
  * @property {boolean} start
  * @property {boolean[]} reached
+ * @property {(?(?number)[])[]} postures
  * @property {?FoundTour} greedy
  * @property {?FoundTour} best
  * @property {string} says
+ * @property {string} alone
+ * @property {string} among
  * @property {string[]} notes
  */
-/** @typedef {{answer: Answer, question: Question, tours: (?Tour)[], cells: string[][]}} Heard */
+/** @typedef {{answer: Answer, question: Question}} Heard */
 /**
- * `touched` is the point that was grabbed last, `chosen` the chosen row of the table.
- * @typedef {Question & {touched: number, chosen: number, time: number, playing: boolean}} State
+ * `touched` is the point that was grabbed last, `chosen` the chosen row of the table, `order` the
+ * reader's own order, and `best` whether the best order is shown.
+ * @typedef {Question & {touched: number, chosen: number, order: number[], best: boolean,
+ *   time: number, playing: boolean}} State
  */
 
 /**
@@ -79,35 +86,47 @@ function tourExplorer(root, id, stage, data) {
   const {words: says} = data,
     names = /** @type {TourName[]} */ (data.tours),
     home = /** @type {Question} */ (data.question);
-  const state = opened(home, names);
-  let heard = read(names, /** @type {Answer} */ (joinArrays(data.first)), home),
+  const state = opened(home, data.best);
+  /** @type {Heard} */
+  let heard = {answer: /** @type {Answer} */ (joinArrays(data.first)), question: home};
+  let shown = found(data, state, heard),
     asked = JSON.stringify(question(state));
-  const inputs = inputsOf(stage, data, state, home),
+  // the clock is below the scene, so that it works while the rest is inactive
+  const parts = clockRow(),
+    end = () => heard.question.T,
+    clock = runningClock(parts, stage.frame, state, () => [0, end()], stage.changed);
+  const tell = () => {
+    shown = found(data, state, heard);
+    state.time = Math.min(state.time, end());
+    say(stage, notes, says, shown.says, heard.answer);
+    stage.changed();
+  };
+  /** Takes the reader's order, and shows the arm at its end. @param {number[]} order */
+  const take = order => {
+    [state.order, state.chosen] = [order, names.indexOf("yours")];
+    tell();
+    clock.set(shown.tours[state.chosen]?.times.at(-1) ?? 0);
+  };
+  const tap = (/** @type {number} */ k) => {
+    const {order} = state;
+    if (order.includes(k)) take(without(order, k));
+    else if (heard.answer.reached[k]) take([...order, k]);
+  };
+  const setHandles = () => stage.handles.set(pointHandles(root, stage, data, state, home, tap));
+  const inputs = inputsOf(stage, data, state, setHandles),
     rows = tourTable(stage, says, names, state),
     notes = element("ul", {class: "rk-notes"});
   beside(stage.side, stage.says, notes);
-  stage.below.append(rows.node);
-  // the clock is below the scene, so that it works while the rest is inactive
-  const parts = clockRow();
+  parts.row.append(wordButton(says.clear, () => take([])));
   beside(stage.space, parts.row);
-  const end = () => heard.question.T;
-  const clock = runningClock(parts, stage.frame, state, () => [0, end()], stage.changed);
   holding(stage, state);
-  stage.handles.set(pointHandles(stage, data, state, home));
-
-  const tell = () => {
-    state.time = Math.min(state.time, end());
-    stage.say(heard.answer.says);
-    notes.replaceChildren(...heard.answer.notes.map(text => element("li", {}, text)));
-    stage.changed();
-  };
+  setHandles();
   tell();
   const kernel = kernelOf(root, id, says, (/** @type {Answer} */ answer, asking) => {
-    heard = read(names, answer, asking);
+    heard = {answer, question: asking};
     tell();
   });
-
-  let last = /** @type {Tour} */ (heard.tours.find(Boolean)).at(0); // the first answer has a tour
+  let last = /** @type {Tour} */ (shown.tours.find(Boolean)).at(0); // the first answer has a tour
   stage.run(() => {
     clock.pass(performance.now());
     clock.tell();
@@ -116,24 +135,54 @@ function tourExplorer(root, id, stage, data) {
     if (text !== asked) kernel.ask(asking);
     asked = text;
     inputs.tell();
-    const {answer, tours} = heard,
-      tour = tours[state.chosen] || tours.find(each => each !== null);
-    rows.set(heard.cells, tour ? tours.indexOf(tour) : -1, tours.map(Boolean));
-    mark(stage.handles.layer, state, heard, tour);
+    const {tours, cells} = shown,
+      tour = tours[state.chosen] || tours.find(Boolean);
+    rows.set(cells, tour ? tours.indexOf(tour) : -1, tours.map(Boolean));
     last = tour ? tour.at(state.time) : last;
-    stage.scene.things = [state.p0, ...state.points].map(at => point("", at));
-    return [{name: "", chain: answer.chain, q: last, under: below(state, heard)}];
+    return draw(stage, state, heard.answer, tours, tour, last);
   });
 }
+
+/**
+ * Marks the handles, and returns the arm to draw.
+ * @param {Stage} stage
+ * @param {State} state
+ * @param {Answer} answer
+ * @param {(?Tour)[]} tours
+ * @param {?Tour | undefined} tour  the chosen one
+ * @param {number[]} q
+ */
+function draw(stage, state, answer, tours, tour, q) {
+  mark(stage.handles.layer, state, answer, tour);
+  stage.scene.things = [state.p0, ...state.points].map(at => point("", at));
+  return [{name: "", chain: answer.chain, q, under: below(state, tours)}];
+}
+
+/**
+ * Shows the sentences.
+ * @param {Stage} stage
+ * @param {HTMLElement} list  of the notes
+ * @param {TourExplorer["words"]} words
+ * @param {string} text
+ * @param {Answer} answer
+ */
+function say(stage, list, {scene}, text, {reached, notes}) {
+  stage.say(text);
+  stage.name([fill(scene, {n: reached.length}), text, ...notes].join(" "));
+  list.replaceChildren(...notes.map(note => element("li", {}, note)));
+}
+
+/** The order without point k. @type {(order: number[], k: number) => number[]} */
+const without = (order, k) => order.filter(each => each !== k);
 
 /**
  * The inputs for links, time and kind of task, and the buttons that add and remove points.
  * @param {Stage} stage
  * @param {TourExplorer} data
  * @param {State} state
- * @param {Question} home
+ * @param {() => void} setHandles  makes the handles of the points anew
  */
-function inputsOf(stage, data, state, home) {
+function inputsOf(stage, data, state, setHandles) {
   const {words: says, unit, controls, kinds, spare} = data;
   const keys = /** @type {const} */ (["l1", "l2", "T"]),
     sizes = [unit.size, unit.size, 1];
@@ -152,11 +201,14 @@ function inputsOf(stage, data, state, home) {
     wordButton(text, () => {
       act();
       state.touched = state.points.length - 1;
-      stage.handles.set(pointHandles(stage, data, state, home));
+      setHandles();
       stage.changed();
     });
   const add = button(says.add, () => state.points.push([...spare[state.points.length]]));
-  const remove = button("", () => state.points.splice(state.touched, 1));
+  const remove = button("", () => {
+    state.points.splice(state.touched, 1);
+    state.order = without(state.order, state.touched).map(k => k - Number(k > state.touched));
+  });
   const copy = copyButton(says, () => fill(data.code, inCode(state)));
   stage.side.append(
     ...sliders.map(s => s.row),
@@ -186,15 +238,17 @@ function tourTable(stage, says, names, state) {
     stage.changed();
   });
   rows.node.classList.add("rk-tours");
+  stage.below.append(rows.node);
   return rows;
 }
 
 /**
- * Records in the state whether the reader is dragging something.
+ * Lets the handles react to taps, and records in the state whether the reader is dragging.
  * @param {Stage} stage
  * @param {State} state
  */
 function holding(stage, state) {
+  stage.handles.layer.classList.add("rk-taps");
   const letGo = () => {
     state.held = false;
     stage.changed();
@@ -208,19 +262,21 @@ function holding(stage, state) {
 }
 
 /**
- * The handles of the start and of every point.
+ * The handles of the start and of every point. They move only while a kernel answers.
+ * @param {HTMLElement} root
  * @param {Stage} stage
  * @param {TourExplorer} data
  * @param {State} state
  * @param {Question} home
+ * @param {(k: number) => void} tap
  * @returns {Handle[]}
  */
-function pointHandles(stage, {words: says, unit}, state, home) {
+function pointHandles(root, stage, {words: says, unit}, state, home, tap) {
   /** @type {(id: string, name: string, p: Point, first: Point, touch: () => void) => Handle} */
   const handle = (id, name, p, first, touch) => {
     /** @type {(place: Point) => void} */
     const move = place => {
-      p.splice(0, 3, ...place);
+      if (root.hasAttribute("data-awake")) p.splice(0, 3, ...place);
     };
     return {
       id,
@@ -232,8 +288,10 @@ function pointHandles(stage, {words: says, unit}, state, home) {
       grab(camera) {
         const to = inScreen(camera, [...p]);
         touch();
-        state.held = true;
-        return (dx, dy) => move(to(dx, dy));
+        return (dx, dy) => {
+          state.held = true;
+          move(to(dx, dy));
+        };
       },
       step(right, up, big) {
         const camera = stage.camera(),
@@ -244,41 +302,34 @@ function pointHandles(stage, {words: says, unit}, state, home) {
       home: () => move(first),
     };
   };
-  const points = state.points.map((p, k) =>
-    handle(`${k}`, fill(says.takePoint, {k}), p, home.points[k] || [...p], () => {
+  const points = state.points.map((p, k) => {
+    const made = handle(`${k}`, fill(says.takePoint, {k}), p, home.points[k] || [...p], () => {
       state.touched = k;
-    }),
-  );
+    });
+    const value = () => {
+      const rank = state.order.indexOf(k) + 1;
+      return made.value() + (rank ? fill(says.rank, {rank}) : "");
+    };
+    return {...made, value, tap: () => tap(k)};
+  });
   return [handle("p0", says.takeStart, state.p0, home.p0, () => {}), ...points];
 }
 
-/** @type {(home: Question, names: TourName[]) => State} */
-const opened = (home, names) => ({
+/** @type {(home: Question, best: boolean) => State} */
+const opened = (home, best) => ({
   ...home,
   p0: [...home.p0],
   points: home.points.map(p => [...p]),
   touched: home.points.length - 1,
-  chosen: names.indexOf("best"),
+  chosen: 1,
+  order: [],
+  best,
   time: 0,
   playing: false,
 });
 
 /** @type {(state: Question) => Question} */
 const question = ({l1, l2, T, kind, p0, points, held}) => ({l1, l2, T, kind, p0, points, held});
-
-/**
- * An answer, with its tours and its table in the form in which they are shown.
- * @param {TourName[]} names
- * @param {Answer} answer
- * @param {Question} question
- * @returns {Heard}
- */
-const read = (names, answer, question) => ({
-  answer,
-  question,
-  tours: names.map(name => answer[name] && toured(answer.chain, answer[name], name)),
-  cells: names.map(name => answer[name]?.cells ?? ["\u2013", "\u2013", "\u2013"]),
-});
 
 /** @param {Question} question */
 const inCode = ({l1, l2, T, kind, p0, points}) => {

@@ -6,16 +6,17 @@ import {fk, origin} from "./kinematics.js";
 /** @import {PageLink} from "./page.js" */
 /** @import {Color} from "./canvas.js" */
 /** @import {Draw} from "./scene.js" */
-/** @import {FoundTour, Heard, State, TourName} from "./tour_explorer.js" */
+/** @import {Answer, FoundTour, State, TourName} from "./tour_explorer.js" */
 
 /** @typedef {ReturnType<typeof toured>} Tour */
 
 const FINE = 0.05; // rad: step of the fastest joint between two points of a drawn path
 // colour-blind readers can distinguish these colours, and the dashes differ, too
 /** @type {Record<TourName, Color>} */
-const COLORS = {greedy: "joint2", best: "joint1"};
+const COLORS = {greedy: "joint2", best: "joint1", yours: "joint3"};
 /** @type {Record<TourName, [width: number, dash?: number[]]>} */
-const LINES = {greedy: [2.2, [7, 7]], best: [3.4]}; // both are visible where they coincide
+const LINES = {greedy: [2.2, [7, 7]], best: [3.4], yours: [7, [3, 4]]}; // all are visible where
+// they coincide
 
 /**
  * A tour to draw and to play: the places of the tool, and the posture at a time.
@@ -55,14 +56,13 @@ export function toured(chain, {t, q, order, times}, name) {
 }
 
 /**
- * Sets the style of each handle (served, still to be served, left out, or out of reach), and shows
- * its rank in both tours.
+ * Sets the style of each handle: served, still to be served, left out, or out of reach.
  * @param {HTMLElement} layer
  * @param {State} state
- * @param {Heard} heard
+ * @param {Answer} answer
  * @param {?Tour} [tour]
  */
-export function mark(layer, {time}, {answer: {start, reached}, tours}, tour) {
+export function mark(layer, {time}, {start, reached}, tour) {
   for (const node of /** @type {HTMLCollectionOf<HTMLElement>} */ (layer.children)) {
     const k = Number(node.dataset.handle),
       point = node.dataset.handle !== "p0",
@@ -74,20 +74,16 @@ export function mark(layer, {time}, {answer: {start, reached}, tours}, tour) {
       "--own",
       `var(--rk-${tour && served >= 0 ? COLORS[tour.name] : "soft"})`,
     );
-    for (const each of tours.filter(each => each !== null)) {
-      const rank = each.order.indexOf(k);
-      node.dataset[each.name] = rank < 0 ? "" : `${rank + 1}.`;
-    }
   }
 }
 
 /**
  * Draws below the arm: its reach, the heights of the points, the tours, and a band where the tool
  * dips below the floor.
- * @type {(state: State, heard: Heard) => Draw}
+ * @type {(state: State, tours: (?Tour)[]) => Draw}
  */
 export const below =
-  ({p0, points, l1, l2}, {tours}) =>
+  ({p0, points, l1, l2}, tours) =>
   (g, {to}) => {
     const ring = Array.from({length: 73}, (_, i) => (i * Math.PI) / 36).map(x =>
       to([(l1 + l2) * Math.cos(x), (l1 + l2) * Math.sin(x), 0]),

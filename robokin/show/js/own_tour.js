@@ -1,0 +1,86 @@
+// The tour in the reader's own order, which the page computes: it needs no kernel.
+
+import {fill} from "./blanks.js";
+import {toured} from "./tour_picture.js";
+
+/** @import {Answer, FoundTour, Heard, Question, State, TourExplorer} from "./tour_explorer.js" */
+
+/**
+ * The tours that the view shows, the cells of its table, and its sentences.
+ * @param {TourExplorer} data
+ * @param {State} state
+ * @param {Heard} heard
+ */
+export function found({words, speeds}, state, {answer, question: asking}) {
+  const mine = ownTour(asking, answer, state.order, speeds, words.late),
+    all = answer.reached.flatMap((fine, k) => (fine ? k : []));
+  state.best ||= all.length > 0 && all.every(k => state.order.includes(k));
+  const own =
+    mine && fill(words[asking.kind], {count: mine.cells[1], n: answer.among, t: mine.cells[2]});
+  return {
+    tours: /** @type {const} */ ([
+      ["greedy", answer.greedy],
+      ["best", state.best ? answer.best : null],
+      ["yours", mine],
+    ]).map(([name, tour]) => tour && toured(answer.chain, tour, name)),
+    cells: [answer.greedy, state.best ? answer.best : null, mine].map(
+      tour => tour?.cells ?? ["\u2013", "\u2013", "\u2013"],
+    ),
+    says: [own, state.best ? answer.says : `${answer.alone} ${words.veiled}`]
+      .filter(Boolean)
+      .join(" "),
+  };
+}
+
+/**
+ * The tour through the points in the reader's order, without those out of reach. As in `itinerary`
+ * (solver.py), the arm returns to the start with each point that it collects, and a free joint
+ * keeps its value. Points that are reached after T stand only in the cell of the table.
+ * @param {Question} question
+ * @param {Answer} answer
+ * @param {number[]} chosen  the points in the reader's order
+ * @param {number[]} speeds  the greatest speeds of the joints, rad/s
+ * @param {string} late  the words before points that are reached too late
+ * @returns {?FoundTour}  null if there is no tour
+ */
+function ownTour({T, kind}, {postures}, chosen, speeds, late) {
+  const order = chosen.filter(k => postures[k + 1]);
+  if (!postures[0] || !order.length) return null;
+  const trip = kind === "collect" ? [0] : [], // where the arm goes after each point
+    each = 1 + trip.length;
+  const stops = settled([0, ...order.flatMap(k => [k + 1, ...trip])].map(k => postures[k] ?? []));
+  const t = [0];
+  for (let k = 1; k < stops.length; k++)
+    t.push(
+      t[k - 1] + Math.max(...speeds.map((v, j) => Math.abs(stops[k][j] - stops[k - 1][j]) / v)),
+    );
+  const times = order.map((_, k) => t[each * (k + 1)]),
+    count = times.filter(time => time - T <= ROUNDING * T).length;
+  const parts = order.map((k, i) => `${k}\u00A0(${times[i].toFixed(2)})`),
+    after = count < order.length ? [`${late} ${parts.slice(count).join(", ")}`] : [];
+  const last = each * count + 1;
+  return {
+    t: {values: Float32Array.from(t.slice(0, last)), shape: [last]},
+    q: {values: Float32Array.from(stops.slice(0, last).flat()), shape: [last, speeds.length]},
+    order: order.slice(0, count),
+    times: times.slice(0, count),
+    cells: [
+      [...parts.slice(0, count), ...after].join(", "),
+      String(count),
+      (count ? times[count - 1] : 0).toFixed(2),
+    ],
+  };
+}
+
+const ROUNDING = 1e-12; // of T: a time that exceeds T by less is within T, as in solver.py
+
+/**
+ * Postures whose free joints (null) have their values at the previous stop or, at the beginning,
+ * at the first stop at which they are not free.
+ * @param {(?number)[][]} stops
+ * @returns {number[][]}
+ */
+function settled(stops) {
+  const now = stops[0].map((_, j) => stops.find(q => q[j] !== null)?.[j] ?? 0);
+  return stops.map(q => q.map((x, j) => (now[j] = x ?? now[j])));
+}
