@@ -83,7 +83,7 @@ STEEP = """
 
 It doubles.
 
-## Right programs
+## Correct programs
 
 **plain.**
 ```python

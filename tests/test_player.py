@@ -339,7 +339,7 @@ def test_teeth_of_a_sawtooth_count_as_jumps_in_position_and_not_as_speed():
     arm = animate(IRB140, t, q).data["arms"][0]
     assert [words for _, words in arm["leaps"]["0"]] == ["q1 jumps by 4.0°"] * 6
     [note] = arm["notes"]["0"]
-    assert note.startswith("Jumps of position: q1 jumps by 4.0° at 0.83 s; ")
+    assert note.startswith("Jumps in position: q1 jumps by 4.0° at 0.83 s; ")
     assert note.endswith("; and 3 more.") and not arm["jumps"]
     assert arm["speed"][0][0] == pytest.approx(0.2 / deg, abs=0.05)
     assert abs(arm["acceleration"][0][0]) < 0.1
@@ -366,7 +366,7 @@ def test_samples_that_exceed_a_limit_are_counted(motions):
     when = f"from {T[-over]:.2f} to 20.00 s"
     assert note == f"q2 is past its limit in {over} of 2001 samples, {when}, by up to {most:.1f}°."
     fast = animate(IRB140, T / 25, motions[1]).data["arms"][0]["notes"]["0"]
-    assert any("is past its speed limit" in note for note in fast)
+    assert any("exceeds its speed limit" in note for note in fast)
 
 
 @pytest.mark.parametrize(

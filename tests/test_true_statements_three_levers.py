@@ -1,4 +1,4 @@
-"""Statements of lab 09 about what its views show, recomputed with circles."""
+"""Statements of lab 09 about its views, checked by intersecting circles."""
 
 import math
 
@@ -16,7 +16,7 @@ STAND, SQUARE = np.array([60, 120, 120]) * deg, np.array([90, 90, 90]) * deg
 
 
 def ends(K):
-    """The range of alpha at K, as far as gamma stays below 180 degrees."""
+    """Return the range of alpha at K for which gamma stays below 180 degrees."""
     alphas = np.linspace(math.acos((5 - abs(K) ** 2) / 4), math.pi, 4001)
     kept = [alpha for alpha in alphas if family(K, alpha)[0] <= math.pi + 1e-9]
     return kept[0], kept[-1]
@@ -49,7 +49,7 @@ def test_s_is_least_where_the_fourth_section_says():
     for K in (far, behind):
         low, high = ends(K)
         S, q = least_from(K, SQUARE)
-        assert abs(q - SQUARE).min() > 1 * deg, "an angle keeps its value"
+        assert abs(q - SQUARE).min() > 1 * deg, "an angle has its previous value"
         from_end = min(q[2] - low, high - q[2])
         assert (from_end > 5 * deg) if K is far else (from_end < 1e-3)
         if K is far:
@@ -72,7 +72,7 @@ def test_only_one_sum_of_the_angles_has_a_minimum_inside_the_range():
     assert seen == {(-1, 1, 1)}, "in the order gamma, beta, alpha"
 
 
-def test_times_of_the_shortest_and_of_the_least_move_are_as_stated():
+def test_times_of_the_fastest_and_of_the_least_movement_are_as_stated():
     alpha, longest, time, least, later = numbers(
         r"cross at \$\\alpha = (\S+)°\$\. The longest turn is (\S+)° there, which takes (\S+) s\. "
         r"With the least S it is (\S+)°, which takes (\S+) s\.",
@@ -136,7 +136,7 @@ def test_weights_let_gamma_turn_less_by_the_stated_amount():
     assert turns == pytest.approx([after, before], abs=0.05)
 
 
-def test_rounds_repeat_themselves_or_drift_as_stated():
+def test_rounds_repeat_or_drift_as_stated():
     words = flat("09", "deeper-more")
     assert "20 random lists: 19 repeated themselves from the seventh round or earlier, and" in words
     assert "one was still drifting after fourteen rounds." in words
@@ -151,6 +151,8 @@ def test_rounds_repeat_themselves_or_drift_as_stated():
             rounds.append([q := ARM.least(K, q)[0] for K in places])
         change = abs(np.diff(rounds, axis=0)).max(axis=(1, 2)) / deg
         moving = change > 1e-6
-        assert (moving[1:] <= moving[:-1]).all(), "it moves again after a round without a change"
+        assert (moving[1:] <= moving[:-1]).all(), (
+            "the arm changes again after a round without a change"
+        )
         settled.append(1 + int(moving.sum()))
     assert sorted(settled)[-2:] == [7, 14]

@@ -116,7 +116,7 @@ def prediction(
 ) -> tuple[str, Prediction]:
     """Parse a prediction from its number, its section and the names of its Python file: for p1,
     `p1()` returns its facts, with the name of the right answer as "right". A prediction that has
-    moved here from another lab has its whole id in the heading. Raises BadFile if something is
+    moved here from another lab has its full id in the heading. Raises BadFile if something is
     missing.
 
     ## p5, a number in mm/s, within 2 %

@@ -1,4 +1,4 @@
-"""The types of the data of the explorers. Those of an explorer's arm are in `twin`."""
+"""The types of the data of explorers. The types of the data of an arm are in `twin`."""
 
 from typing import Any, Literal, NotRequired, TypeAlias, TypedDict
 
@@ -113,8 +113,9 @@ class JointPage(ArmPage):
 
 
 class PageCosts(TypedDict):
-    """The curve of the sum S over the free angle alpha: its title, the text of its axis, and the
-    names of its three terms and the dashes of their lines, or none if only S is drawn.
+    """The curve of the sum S against the free angle alpha: its title, the label of its axis, the
+    names of its three terms, and the dash patterns of their lines. `terms` and `dashes` are empty
+    if only S is drawn.
     """
 
     title: str
@@ -124,7 +125,7 @@ class PageCosts(TypedDict):
 
 
 class LeversPage(ArmPage):
-    """The data of an explorer of three levers: the previous posture q, the points to reach one
+    """The data of an explorer of three levers: the previous posture q, the points to be reached one
     after the other, and the curve of the sum of the angle changes.
     """
 
@@ -135,8 +136,8 @@ class LeversPage(ArmPage):
 
 
 class ElbowPage(ArmPage):
-    """The data of the explorer of an elbow: the point [r, z] in the plane of the arm, the headings
-    of the table, and the names of its rows.
+    """The data of the elbow explorer: the initial point [r, z] in the plane of the arm, the
+    headings of the table, and the names of its rows.
     """
 
     kind: Literal["elbow"]
@@ -148,8 +149,8 @@ class ElbowPage(ArmPage):
 class TargetPage(ArmPage):
     """The data of the target explorer: the target, its rotations in radians, the previous posture
     q, the names of the branches, the headings of the table, and the joints whose angle changes are
-    added up in the column "travel". `watched` lists the joints for which the explorer says how far
-    the one nearest to a limit is from it. `task` belongs to an exercise.
+    added up in the column "travel". The explorer says which of the joints in `watched` is nearest
+    to one of its limits, and how near. `task` belongs to an exercise.
     """
 
     kind: Literal["target"]
@@ -165,7 +166,8 @@ class TargetPage(ArmPage):
 
 class MotionPage(ArmPage):
     """The data of the motion explorer: the stations, the initial values, the names of laws,
-    corners, branches and panels, the number of samples, and whether it shows the corner close up.
+    corners, branches and panels, the number of samples, and whether the explorer shows a close-up
+    of the corner.
     """
 
     kind: Literal["motion"]
@@ -185,7 +187,8 @@ class MotionPage(ArmPage):
 
 class SingularityPage(ArmPage):
     """The data of the singularity explorer: the singular pose, two unit vectors (the direction of
-    the line, and that in which it misses the pose), the row of `ik`, and the tool's speed in m/s.
+    the line, and the direction from the pose to the line), the row of `ik`, and the tool's speed in
+    m/s.
     """
 
     kind: Literal["singularity"]
@@ -197,10 +200,10 @@ class SingularityPage(ArmPage):
 
 
 class RotationPage(ExplorerPage):
-    """The data of the rotation explorer: two perpendicular unit vectors (the axis, and the one
-    across it towards v), the length of v in metres, the opening angles in radians (of the rotation,
-    and between v and the axis), the names of the rows and the headings of the table, and the number
-    of decimals of lengths.
+    """The data of the rotation explorer: two perpendicular unit vectors (the axis, and the
+    direction from the axis to the tip of v), the length of v in metres, the initial angles in
+    radians (of the rotation, and between v and the axis), the names of the rows and the headings of
+    the table, and the number of decimals of lengths.
     """
 
     kind: Literal["rotation"]

@@ -134,7 +134,7 @@ function drawBelow({g, cam: {to, scale}}, {arm}, {elbow}, {top, joint2, point, c
 }
 
 /**
- * Draws d and the angles or, out of reach, what is missing between the circles.
+ * Draws d and the angles or, if the point is out of reach, the gap between the circles.
  * @param {Context} g
  * @param {ElbowExplorer} data
  * @param {Seen} now
@@ -157,7 +157,7 @@ function drawAbove(g, data, now, places) {
 }
 
 /**
- * The direction from which an angle is measured, and an arc with an arrow at its end.
+ * Draws the direction from which an angle is measured, and an arc with an arrow at its end.
  * @param {Context} g
  * @param {Pixel} centre
  * @param {number} radius
@@ -178,8 +178,7 @@ function arrow(g, centre, radius, from, to, color) {
 }
 
 /**
- * Both ends of the part of the line through joint 2 and the point that is missing between the
- * circles.
+ * The ends of the gap between the circles, on the line through joint 2 and the point.
  * @param {ElbowExplorer} data
  * @param {Seen} now
  * @param {Places} places

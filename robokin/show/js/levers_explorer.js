@@ -32,8 +32,8 @@ export const explore = (id, data) =>
   waiting(id).forEach(root => leversExplorer(stageOf(root, data), data));
 
 /**
- * The reader's settings: the point, the previous posture, the free angle, the arm; the index of
- * the target, and the sum of the angle changes on the way to the targets before it.
+ * The reader's settings: the point, the previous posture, the free angle and the arm; also the
+ * index of the target, and the sum of the angle changes for all targets before it.
  * @typedef {object} State
  * @property {Point} place
  * @property {number[]} before
@@ -103,7 +103,7 @@ function leversExplorer(stage, data) {
 }
 
 /**
- * The buttons: least S, begin with this posture, begin again, copy.
+ * The buttons: least S, begin here, start again, copy.
  * @param {Stage} stage
  * @param {LeversExplorer} data
  * @param {State} state
@@ -237,7 +237,7 @@ function told({words: says, curve}, {task, turned}, {q, changes, best, fewest, l
 }
 
 /**
- * What the curve shows, for a screen reader.
+ * A description of the curve for a screen reader.
  * @param {LeversExplorer} data
  * @param {Costs} costs
  */
@@ -254,7 +254,7 @@ function heard({words: says, curve}, {low, high, kinks, best, fewest}) {
 }
 
 /**
- * Why no posture reaches the point, as `out_of_reach` of planar.py.
+ * Says why no posture reaches the point, as `out_of_reach` in planar.py does.
  * @param {LeversExplorer} data
  * @param {State} state
  */
