@@ -221,7 +221,7 @@ def test_page_says_why_a_point_is_out_of_reach(opened, arm):
         for name, value in zip("xy", place.tolist(), strict=True):
             shown.type(name, value)
         why = arm.out_of_reach(place).replace("0 to 180 degrees", "0° to 180°")
-        said = "every posture that reaches it has" if "posture" in why else why
+        said = "every posture for it has" if "posture" in why else why
         assert why and said in shown.look().says
     shown.rk.get_by_role("button", name="Least S").click()
     shown.rk.get_by_role("button", name="Begin here").click()

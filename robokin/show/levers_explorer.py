@@ -136,7 +136,7 @@ def _page(
         "({inner}).",
         "tooFar": f"{NOWHERE}it lies {{distance}} from the base, farther than three levers "
         "({reach}).",
-        "pastGamma": f"{NOWHERE}every posture that reaches it has gamma outside 0° to 180°.",
+        "pastGamma": f"{NOWHERE}every posture for it has gamma outside 0° to 180°.",
     }
     return {
         "kind": "levers",

@@ -254,7 +254,7 @@ function heard({words: says, curve}, {low, high, kinks, best, fewest}) {
 }
 
 /**
- * Says why no posture reaches the point, as `out_of_reach` in planar.py does.
+ * Why no posture reaches the point, as `out_of_reach` of planar.py.
  * @param {LeversExplorer} data
  * @param {State} state
  */
