@@ -85,7 +85,7 @@ def test_every_objective_is_practised_and_named_in_the_lab(lab, monkeypatch):
     plain = re.sub(r"[*\s]+", " ", words)
     for objective in made.objectives:
         assert objective.rstrip(".;") in plain, objective
-    if lab in SHORT[1:]:  # questions practise the objectives without an exercise
+    if lab in SHORT[1:]:  # questions practise the objectives that have no exercise
         listed = re.search(r"\*\*You will be able to\*\*\n\n(.*?)\n\n", words_of(lab), re.S)[1]
         parts = re.findall(r"\((exercise 1|question in section \d)\)[;.]$", listed, re.M)
         assert len(parts) == 3 == listed.count("\n") + 1 and "exercise 1" in parts

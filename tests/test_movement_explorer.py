@@ -52,7 +52,7 @@ def kinks_of(K, before, ends, lengths=(1, 1, 1)):
 
 @pytest.fixture(scope="module")
 def levers(context):
-    """A function that calls a function of levers.js: `levers(name, *arguments)`."""
+    """Return a function that calls one of levers.js: `levers(name, *arguments)`."""
     page = context.new_page()
     page.goto("about:blank")
     page.add_script_tag(content=f"{script('levers')}\nwindow.levers = $levers;")

@@ -26,7 +26,7 @@ def in_circles(K, alphas):
     return np.array([family(K, alpha) for alpha in alphas])
 
 
-def test_ring_1_keeps_the_distance_and_the_others_do_not():
+def test_only_ring_1_keeps_the_distance_of_the_gripper_from_the_base():
     assert "Ring 1: it turns the whole arm about O." in flat("09", "chain-look")
     q = np.array([100, 110, 120]) * deg
     far = [abs(gripper(q + 0.1 * np.eye(3)[k])) - abs(gripper(q)) for k in range(3)]
@@ -41,7 +41,7 @@ def test_two_levers_are_in_line_at_both_ends_of_the_range():
     assert high == math.pi and family(K, low)[1] == pytest.approx(math.pi, abs=1e-6)
 
 
-def test_s_is_least_where_the_fourth_section_says():
+def test_s_is_least_where_section_4_says():
     words = flat("09", "least-sweep")
     far, behind = complex(2.8, 0.4), SECOND
     assert "Far out, at (2.8, 0.4) m, S is lowest where it is level." in words
@@ -88,7 +88,7 @@ def test_times_of_the_fastest_and_of_the_least_movement_are_as_stated():
     assert [change[best].max() / 30, turned / 30] == pytest.approx([time, later], abs=0.005)
 
 
-def test_best_first_posture_costs_what_the_sixth_section_says():
+def test_best_first_posture_costs_what_section_6_says():
     words = flat("09", "greed-hand")
     (greedy,) = numbers(r"the greedy arm turns by (\S+)° in all", words)
     kink, now, then, total, less, more = numbers(
@@ -124,7 +124,7 @@ def test_both_arms_of_the_player_differ_for_the_stated_targets():
     assert "quantities=" in cells("09")["greed-player"]
 
 
-def test_weights_let_gamma_turn_less_by_the_stated_amount():
+def test_weights_reduce_the_change_of_gamma_by_the_stated_amount():
     after, before = numbers(
         r"turns by (\S+)° instead of (\S+)°\.", flat("09", "deeper-more").replace("$", "")
     )

@@ -14,12 +14,12 @@ from ..units import mm
 from .player import Player, animate
 
 OBJECTS = 200  # in the stream
-PITCH = 1.0  # m, from arm to arm
+PITCH = 1.0  # m, between neighbouring arms
 SHOWN = 6.0  # seconds of the motion
 SAMPLES = 1201
-RADIUS = 22 * mm  # of an object
+RADIUS = 22 * mm  # the radius of an object
 HANGS = 30 * mm  # from a tool down to the object that it carries
-BEFORE, AFTER = 200 * mm, 100 * mm  # how far the drawn belt goes beyond the windows
+BEFORE, AFTER = 200 * mm, 100 * mm  # how far the drawn belt extends beyond the windows
 SLOWEST, FASTEST = 0.02, 0.5  # m/s, of the belt
 BUSIEST = 6  # maximum number of arms, and of spreads
 SQUARE = np.array([[-1, -1], [1, -1], [1, 1], [-1, 1]])

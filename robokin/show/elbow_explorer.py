@@ -37,10 +37,10 @@ SAYS = {
     "onAxis": "On axis 1: q1 can have any value (shoulder singularity).",
 }
 MEANT = (
-    "Drag the ring, or move the sliders; a click on a row of the table chooses the elbow. The "
-    "picture is the plane in which the arm bends: r is measured from axis 1, z from the floor, and "
-    "joint 1 turns the plane. An elbow lies on both dotted circles: l2 from joint 2, l3 from "
-    "{point}."
+    "Drag the ring, or move the sliders. Click a row of the table to choose an elbow. The picture "
+    "shows the plane in which the arm bends: r is measured from axis 1, z from the floor, and "
+    "joint 1 turns the plane. Each elbow lies on both dotted circles: it is l2 away from joint 2 "
+    "and l3 away from {point}."
 )
 
 
@@ -92,8 +92,8 @@ def elbow_explorer(arm: ClosedFormArm) -> Explorer:
 
 
 def _positioning(arm: ClosedFormArm) -> tuple[ClosedFormArm, Elbow]:
-    """Return an arm of the first three joints, whose flange is at the wrist centre, and its elbow.
-    An arm that positions a point is returned as it is.
+    """Return an arm that has only the first three joints, with its flange at the wrist centre, and
+    its elbow. An arm that positions a point is returned unchanged.
     """
     solid = instance(arm, ClosedFormArm, "arm").geometry
     if isinstance(solid, ElbowGeometry):

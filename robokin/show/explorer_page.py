@@ -69,7 +69,7 @@ class JumpRules(TypedDict):
 
 class BranchTask(TypedDict):
     """An exercise: the number of different postures that must reach the target, and the sentences
-    to show when the task is solved (`holds`) and until then (`open`).
+    to show when the task is solved (`holds`) and before that (`open`).
     """
 
     wanted: int
@@ -224,7 +224,7 @@ class LivePage(ExplorerPage):
 
 
 class PlanPage(LivePage):
-    """The data of the explorer of plans: the arm, the names of the ways to plan (`branches`), and
+    """The data of the plan explorer: the arm, the names of the planning methods (`branches`), and
     the value of forbidden cells in the cube.
     """
 
@@ -235,8 +235,8 @@ class PlanPage(LivePage):
 
 
 class TourPage(LivePage):
-    """The data of the explorer of tours: the names of the kinds of tasks and of the tours, the
-    maximum number of points, and the places of points that the reader adds.
+    """The data of the tour explorer: the names of the kinds of tasks and of the tours, the maximum
+    number of points, and the places of points that the reader adds.
     """
 
     kind: Literal["tour"]

@@ -1,4 +1,4 @@
-"""The explorers of an arm that reaches a point with a family of postures."""
+"""The explorers of an arm with three levers, which reaches a point with a family of postures."""
 
 from collections.abc import Mapping
 from typing import Any
@@ -17,7 +17,7 @@ from .explorer_page import LeversPage
 from .palette import DASHES, INK
 from .scene import Scene
 
-MOST = 20  # greatest number of targets
+MOST = 20  # maximum number of targets
 TERMS = tuple(f"|\N{GREEK CAPITAL LETTER DELTA}{letter}|" for letter in "γβα")
 NOWHERE = "No posture reaches this point: "
 SAYS: Mapping[str, str] = {
@@ -60,7 +60,7 @@ def movement_explorer(arm: ThreeLeverArm, previous: ArrayLike, target: ArrayLike
     terms |d gamma|, |d beta| and |d alpha|. Rings mark the kinks of S, where a term is zero, and a
     diamond marks the least value of S.
 
-    The reader chooses alpha by dragging joint A or along the curve, and can also drag the target.
+    The reader chooses alpha by dragging joint A or the curve, and can also drag the target.
     The button *Begin here* makes the current posture the previous one. If there are several targets
     (k, 2), in metres, it also moves on to the next target, and the page adds up the changes. Raises
     ValueError if `previous` is not one posture, if there is no target, or if the arm does not reach

@@ -17,7 +17,7 @@ from .page import PageScene
 from .palette import INK, REMARK, SECOND, SOFT, TRACE
 from .scene import Scene
 
-MOST = 4 * np.pi  # after two whole turns the quaternion is the same again
+MOST = 4 * np.pi  # after two whole turns, the quaternion has its initial value again
 FARTHEST = 120  # degrees: the largest angle between v and the axis
 ROWS = ("q", "v", "q v", "q v q*")
 SEEN = (
@@ -40,7 +40,7 @@ SAYS = {
 }
 MEANT = (
     "Drag the rings, or move the sliders: θ is the angle of the rotation about the axis n, φ is "
-    "the angle between v and n. The two coloured arcs are θ/2 each. The dotted line from the "
+    "the angle between v and n. Each of the two coloured arcs is θ/2. The dotted line from the "
     "circle to the tip of q v is parallel to n."
 )
 

@@ -63,8 +63,8 @@ def singularity_explorer(
     most: float = 50 * mm,
     step: float = 1 * mm,
 ) -> Explorer:
-    """Show an arm whose tool the reader pulls along a straight line past the singular pose, which
-    is the pose at q (6,), a posture with a wrist singularity. The explorer shows how fast joint 4
+    """Show an arm whose tool the reader pulls along a straight line past a wrist singularity. The
+    singular pose is that of the tool at the posture q (6,). The explorer shows how fast joint 4
     would have to turn for the tool to move along the line at 100 mm/s without rotating. The line
     has the direction `way` (3,) in base coordinates and extends 100 mm to either side of its
     middle. From the singular pose, the middle is displaced in a direction perpendicular to the line

@@ -23,7 +23,7 @@ import {scale} from "./ticks.js";
 /** @import {Drawn, State} from "./motion_parts.js" */
 /** @import {Shown} from "./scene.js" */
 
-const ORDER = 2; // the panel that is shown: accelerations
+const ORDER = 2; // the order of the derivative that the panel shows: accelerations
 
 /**
  * @param {HTMLElement} root
@@ -125,7 +125,7 @@ function ringOf(
   const kind = () => corners[state.corner];
   /** @type {(blend: number) => void} */
   const take = blend => {
-    // rounded, so that the numbers belong to the blend that is shown
+    // rounded, so that all numbers are for the displayed value of the blend
     state.blend = +Math.min(Math.max(blend, low), high).toFixed(decimals);
   };
   return {
@@ -149,7 +149,7 @@ function ringOf(
 }
 
 /**
- * A small picture of the whole arm, which the reader can turn.
+ * A small picture of the whole arm. The reader can turn the view.
  * @param {MotionPage} data
  * @param {() => void} ask
  */

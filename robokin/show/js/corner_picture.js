@@ -35,7 +35,7 @@ export function cornerOf({start, via, goal}) {
   const side = plus(legs[0], right, -dot(legs[0], right)),
     wide = Math.hypot(...side),
     up = wide > 1e-9 * size ? side.map(x => x / wide) : squareTo(right)[0];
-  // how steep the two lines are in the picture
+  // the slopes of the two lines in the picture
   const slopes = legs.map(leg => {
     const along = -dot(leg, right),
       across = Math.abs(dot(leg, up));

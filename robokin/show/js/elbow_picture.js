@@ -27,7 +27,7 @@ import {degrees} from "./turns.js";
 /** @import {Pen} from "./scene.js" */
 /** @import {Picture} from "./stage.js" */
 
-const WIDE = 420; // px: a narrower picture has no room for numbers beside the letters
+const WIDE = 420; // px: the labels in a narrower picture are letters without numbers
 const [HORIZON, BEND] = [44, 38]; // px: the radii of the arcs of alpha and gamma
 
 /**
@@ -96,7 +96,7 @@ const on = ([x, y], angle, radius) => [x + radius * Math.cos(angle), y - radius 
 const along = (a, b, share = 0.5) => [a[0] + share * (b[0] - a[0]), a[1] + share * (b[1] - a[1])];
 
 /**
- * Pixels that labels avoid: on the lines, and on both edges of the links.
+ * Pixels that labels must avoid, on the lines and on both edges of the links.
  * @param {Places} places
  * @param {Seen} now
  */

@@ -105,7 +105,7 @@ export function drawCosts(canvas, look, costs) {
 }
 
 /**
- * The place of the plot on a canvas, for alpha between its limits and these values.
+ * The area of the plot on a canvas, whose axes cover the limits of alpha and these values.
  * @param {Context} g
  * @param {number} w
  * @param {number} h

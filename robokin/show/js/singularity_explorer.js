@@ -33,7 +33,7 @@ import {degrees} from "./turns.js";
 /** @typedef {[place: number, miss: number]} State  in mm: along the line, and beside the pose */
 /** @typedef {(k: number, value: number) => void} Change  changes the place (0) or the miss (1) */
 /**
- * The posture at one place of the line, and the speed of joint 4 there in rad/s, NaN where joint 4
+ * The posture at one place on the line, and the speed of joint 4 there in rad/s, NaN where joint 4
  * is free.
  * @typedef {{q: number[], speed: number}} Passing
  */
@@ -144,7 +144,7 @@ const onStep = ({low, high, step}, value) =>
   clamp(low + step * Math.round((value - low) / step), low, high);
 
 /**
- * A point of the line that passes the singular pose at this distance.
+ * A point on the line that passes the singular pose at this distance.
  * @param {Pick<Line, "pose" | "along" | "beside">} line
  * @param {number} place  mm
  * @param {number} miss  mm

@@ -1,4 +1,4 @@
-"""The zone of a SCARA: where its tool can be, seen from above."""
+"""The zone of a SCARA, which is the area that its tool can reach, seen from above."""
 
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any, Literal, TypedDict
@@ -63,7 +63,9 @@ class Zone(Thing):
             raise TypeError(f"arm: wanted a SCARA, got {arm.name}")
         sides, labels = [], []
         for elbow in (+1, -1):
-            low, high = np.clip(np.sort(elbow * arm.limits[1]), 0, np.pi)  # how far joint 2 bends
+            low, high = np.clip(
+                np.sort(elbow * arm.limits[1]), 0, np.pi
+            )  # the range of the bend of joint 2
             if low == high:
                 continue
             near, far = elbow * low, elbow * high
