@@ -174,6 +174,7 @@ def lab(monkeypatch):
         objectives=("turn", "choose", "catch"),
         exercises=exercises,
         predictions={},
+        moved={},
         broken={},
         given=lambda who: None,
         read=lambda: None,
