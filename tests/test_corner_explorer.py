@@ -215,10 +215,11 @@ def test_without_a_blend_the_speed_jumps(opened):
     assert box(shown) == 0
     told = shown.rk.locator(".rk-told").inner_text()
     assert "passes 0.0 mm from via." in told and "NaN" not in told
-    assert "The speed jumps at 10.00 s, so the acceleration is undefined." in told
+    assert "The speed jumps at 10.00 s, so there is no finite acceleration." in told
     assert "accelerates most" not in told
     shown.look()  # checks that no text contains NaN
     shown.press("blend", "ArrowLeft")
+    shown.look()  # waits until the page has drawn the change
     shows(shown, 0.01)
 
 

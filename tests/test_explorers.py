@@ -685,7 +685,7 @@ def shows_the_motion(shown, exact=True, held=False):
     assert (f"No solution in {missing} of {SAMPLES} samples." in seen.says) == (missing > 0)
     for j in range(n):
         past = int((np.nan_to_num(recording.excess[:, j]) > 1e-9).sum())
-        words = f"q{j + 1} is past its limit in {past} of {SAMPLES} samples."
+        words = f"q{j + 1} exceeds its limit in {past} of {SAMPLES} samples."
         assert (words in seen.says) == (past > 0), (words, seen.says)
     assert ("The speed jumps" in seen.says) == (fraction == 0 and len(recording.jumps) > 0)
     fine = law(np.linspace(0, law.duration, 100 * (SAMPLES - 1) + 1))

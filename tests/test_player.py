@@ -227,7 +227,7 @@ def test_plot_and_player_report_the_same_problems(motions):
     plot, player = plot_joints(recording), animate(recording)
     [notes] = [" ".join(x) for x in player.data["arms"][0]["notes"].values()]
     for word in ("speed limit", "limit"):
-        told = re.findall(rf"q(\d) is past its {word} in (\d+) of 2001", notes)
+        told = re.findall(rf"q(\d) exceeds its {word} in (\d+) of 2001", notes)
         said = re.search(rf"Joint \d past its {word} in \d+ of 2001 samples[^.]*", plot.alt)[0]
         assert told and len(told) == len(re.findall("oint", said))
         assert all(re.search(rf"oint {j}( past its {word})? in {n}\b", said) for j, n in told)
@@ -364,7 +364,7 @@ def test_samples_that_exceed_a_limit_are_counted(motions):
     assert 0 < over < 2001
     [note] = animate(IRB140, T, q).data["arms"][0]["notes"]["0"]
     when = f"from {T[-over]:.2f} to 20.00 s"
-    assert note == f"q2 is past its limit in {over} of 2001 samples, {when}, by up to {most:.1f}°."
+    assert note == f"q2 exceeds its limit in {over} of 2001 samples, {when}, by up to {most:.1f}°."
     fast = animate(IRB140, T / 25, motions[1]).data["arms"][0]["notes"]["0"]
     assert any("exceeds its speed limit" in note for note in fast)
 

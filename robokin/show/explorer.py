@@ -83,9 +83,9 @@ WORDS: Mapping[str, str] = {
     "fromStart": "from start",
     "toGoal": "to goal",
     "missingSamples": "No solution in {none} of {all} samples.",
-    "pastSamples": "q{joint} is past its limit in {past} of {all} samples.",
+    "pastSamples": "q{joint} exceeds its limit in {past} of {all} samples.",
     "fastSamples": "q{joint} exceeds its speed limit in {past} of {all} samples.",
-    "jump": "The speed jumps at {time} s, so the acceleration is undefined.",
+    "jump": "The speed jumps at {time} s, so there is no finite acceleration.",
 }
 
 

@@ -152,7 +152,7 @@ def flaws(track: Recording, kept: Ints, units: Floats, length: str) -> Flaws:
         for j, excess in enumerate(track.excess[c].T):
             if (excess > 0).any():
                 notes.setdefault(c, []).append(
-                    f"q{j + 1} is past its limit in {(excess > 0).sum()} of {count} samples, "
+                    f"q{j + 1} exceeds its limit in {(excess > 0).sum()} of {count} samples, "
                     f"{spells(track.t, excess > 0)}, by up to {amount(np.nanmax(excess), j)}."
                 )
         for j, excess in enumerate(track.speed_excess[c].T):
@@ -169,7 +169,7 @@ def flaws(track: Recording, kept: Ints, units: Floats, length: str) -> Flaws:
         times = ", ".join(f"{when:.2f}" for when, _ in marked[:3])
         more = f" and {len(marked) - 3} more times" if len(marked) > 3 else ""
         notes.setdefault(c, []).append(
-            f"The speed jumps at {times} s{more}, so the acceleration is undefined."
+            f"The speed jumps at {times} s{more}, so there is no finite acceleration."
         )
     for c, marked in leaps.items():
         first = "; ".join(f"{text} at {when:.2f} s" for when, text in marked[:3])
