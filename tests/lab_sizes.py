@@ -7,7 +7,7 @@ The core path is everything before the heading "More": the words of the text up 
 without formulas, the code cells with their lines, except folded cells, the predictions and the
 exercises. The script allows one minute per 170 words, one for each code cell, two for each
 prediction and twelve for each exercise. The whole lab also includes the part under "More". A gap is
-the time in minutes, before "Your turn", without something that moves outside a prediction.
+a time in minutes, before "Your turn", in which nothing moves except in predictions.
 
 A lab that still has the heading "Deeper (optional)" has the old shape. The old limits apply to it:
 all of its predictions and exercises count, and the time is given without and with the exercises.
@@ -44,7 +44,7 @@ class Size(NamedTuple):
 class Length(NamedTuple):
     core: Size
     whole: Size
-    gap: float  # the longest, in minutes
+    gap: float  # the longest gap, in minutes
     old: bool
 
     @property
@@ -57,18 +57,18 @@ class Length(NamedTuple):
 
 CORE = Size(words=1200, cells=12, lines=150, sections=8, predictions=5, exercises=2)
 MINUTES = {"core": 60, "whole": 90}
-SHORT = {"13_rotor": 30, "14_conveyor": 30}  # minutes of the whole lab
-START = "00_start_here"  # ten minutes without its exercise
+SHORT = {"13_rotor": 30, "14_conveyor": 30}  # maximum minutes for the whole lab
+START = "00_start_here"  # takes at most ten minutes without its exercise
 GAP = 10  # minutes
 MOVES = re.compile(r"^(?:\w+ = )?(?:animate|(?:\w+_)?explorer)\(", re.M)
-# The rules for the old shape, here and in the tests, go when the last lab has the new one.
+# Remove the rules for the old shape, here and in the tests, once every lab has the new shape.
 OLD = "## Deeper (optional)"
 OLD_MOST = Size(words=1800, cells=18, lines=200, sections=8, predictions=10, exercises=3)
 OLD_READING = 60
 
 
 def measure(path: Path) -> Length:
-    """The length of the lab at `path`."""
+    """Return the length of the lab at `path`."""
     cells = json.loads(path.read_text(encoding="utf-8"))["cells"]
     turn = _first(cells, r"^#+ Your turn")
     more = _first(cells, r"^#+ More\b")
@@ -112,7 +112,7 @@ def _size(cells) -> Size:
 
 
 def _gap(cells) -> float:
-    """The longest time in minutes between two views that move, or from the last one to the end."""
+    """Return the longest time, in minutes, between two moving views or after the last one."""
     longest = now = 0.0
     for cell in cells:
         if cell["cell_type"] == "code" and MOVES.search(_text(cell)):
@@ -136,7 +136,7 @@ def words(text: str) -> list[str]:
 
 
 def too_long(name: str, length: Length) -> list[str]:
-    """A message for each limit that the lab exceeds."""
+    """Return a message for each limit that the lab exceeds."""
     core, whole, gap, old = length
     over = [f"{field} {getattr(core, field)} above {most}"
             for field, most in (OLD_MOST if old else CORE)._asdict().items()

@@ -263,7 +263,9 @@ def _forked(lab: Run, k: int, source: str):
 
 
 def _reads(body: Sequence[ast.stmt], sure: set[str]) -> set[str]:
-    """The global names that statements read before they set them; those in `sure` are set."""
+    """Return the global names that statements read before they set them. The names in `sure` are
+    already set.
+    """
     found: set[str] = set()
     for statement in body:
         if isinstance(statement, ast.For):  # it sets its variables before its body reads them
@@ -273,7 +275,7 @@ def _reads(body: Sequence[ast.stmt], sure: set[str]) -> set[str]:
             continue
         reads, writes = _globals(compile(ast.Module([statement], []), "cell", "exec"))
         found |= reads - sure
-        sure = sure | writes if isinstance(statement, SETS) else sure  # others do not always run
+        sure = sure | writes if isinstance(statement, SETS) else sure  # the others may not run
     return found
 
 

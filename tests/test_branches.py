@@ -436,7 +436,7 @@ def test_explain_reports_the_distance_out_of_reach():
     centre = np.array([0.07 + 0.73 + 0.0123, 0, 0.352])
     pose = Transform(TURNED, centre + [0.065, 0, 0])
     for row in range(4):
-        assert "12.3 mm beyond the stretched arm" in explain(IRB140, pose, row)
+        assert "12.3 mm beyond the reach of the arm" in explain(IRB140, pose, row)
         assert "does not exist" in explain(IRB140, pose, row) and "metres" not in explain(
             IRB140, pose, row
         )

@@ -1,4 +1,4 @@
-"""The player of the conveyor: what it draws, by the places that the belt and the arms give."""
+"""The conveyor player draws objects, arms and labels where the belt and the arms put them."""
 
 import numpy as np
 import pytest
@@ -12,7 +12,7 @@ SPREADS = [0.0, 0.8]
 
 @pytest.fixture(scope="module")
 def drawn():
-    """The arguments of `animate` for four arms at 250 mm/s."""
+    """The arguments that the player passes to `animate`, for four arms at 250 mm/s."""
     with pytest.MonkeyPatch.context() as patch:
         patch.setattr("robokin.show.conveyor.animate", lambda *given, **named: (given, named))
         return conveyor_player(0.25, SPREADS, 4)
@@ -77,10 +77,10 @@ def test_arms_start_at_their_bins_and_move_without_jumps(drawn):
     walls = [face for face in named["faces"] if np.ptp(np.array(face)[:, 2])]
     assert len(walls) == 16  # four walls of four bins
     labels = np.array(list(named["points"].values()))
-    assert (labels[:, 0] > WINDOW[:, 0].max() + 0.3).all(), "in front of the belt, over no arm"
+    assert (labels[:, 0] > WINDOW[:, 0].max() + 0.3).all(), "a label is not in front of the belt"
 
 
-def test_time_of_a_way_depends_on_the_bin():
+def test_travel_time_depends_on_the_bin():
     near, far = ways_from([0.35, -0.45, 0.25]), ways_from([0.15, 0, 0.25])
     assert near.min() < ways_from().min() < far.min() and near.argmin() < 40 < far.argmin()
     for wrong in ([0, 0, 0.5], [2, 0, 0], [0.1, 0.2], [np.nan, 0, 0]):
@@ -98,6 +98,6 @@ def test_time_of_a_way_depends_on_the_bin():
         (dict(arms=1), "arms: wanted"),
     ],
 )
-def test_wrong_lines_are_refused(wrong, says):
+def test_invalid_arguments_are_refused(wrong, says):
     with pytest.raises(ValueError, match=says):
         conveyor_player(**wrong)

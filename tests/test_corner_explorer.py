@@ -1,5 +1,5 @@
-"""The motion explorer close up: a corner whose path the reader pulls away from via, in a real
-browser, with numbers that Python computes a second time.
+"""The close-up of the motion explorer in a real browser: the reader pulls the path of a corner away
+from the via point, and the numbers in the page match those computed here.
 """
 
 import re
@@ -30,7 +30,9 @@ def located(pose):
 
 
 def path(stations, fraction, s, kind):
-    """The places (samples, 3) of a path at the progress s, by Bernstein's formula."""
+    """Return the places (samples, 3) of a path for the path parameter s, with Bernstein
+    polynomials.
+    """
     start, via, goal = map(located, stations)
     first, last = via + 2 * fraction * (start - via), via + 2 * fraction * (goal - via)
     shares = [0.0, 1.0] if kind == "parabola" else [0.0, 0.4, 0.8]
@@ -44,23 +46,25 @@ def path(stations, fraction, s, kind):
 
 
 def nearest(stations, fraction, kind):
-    """The least distance of a path from via, and where it is."""
+    """Return the least distance of a path from via, and the place with this distance."""
     places = path(stations, fraction, np.linspace(0, 1, 20_001), kind)
     away = np.linalg.norm(places - located(stations[1]), axis=-1)
     return away.min(), places[away.argmin()]
 
 
 def numbers(shown):
-    """The distance from via in mm, the joint that works hardest and its acceleration in °/s²."""
+    """Return the distance from via in mm, the joint that accelerates most, and its acceleration in
+    °/s².
+    """
     told = shown.rk.locator(".rk-told").inner_text().replace("−", "-")
     assert "NaN" not in told
     near = re.search(r"The path passes (\S+) mm from via\.", told)
-    hard = re.search(r"Joint (\d) works hardest: (\S+)°/s²\.", told)
+    hard = re.search(r"Joint (\d) accelerates most: (\S+)°/s²\.", told)
     return float(near[1]), int(hard[1]), float(hard[2])
 
 
 def wanted(fraction, kind="parabola", seconds=SECONDS):
-    """The same numbers, from 20 001 samples of the motion in Python."""
+    """Compute the same numbers from 20 001 samples of the motion."""
     t = np.linspace(0, seconds, 20_001)
     q = follow(IRB140, IRB140.ik(blend(START, VIA, GOAL, fraction, t / seconds, corner=kind)), ROW)
     a = abs(record(IRB140, t, q).a).max(axis=0) / deg
@@ -96,8 +100,8 @@ MOTIONS = """([code, data, asked]) => {
 
 
 @pytest.mark.parametrize("arm", [IRB140, SCARA], ids=lambda arm: arm.name)
-def test_numbers_are_those_of_python(browser, arm):
-    """A thousand motions with random blends, durations, laws, corners and branches."""
+def test_page_numbers_match_python(browser, arm):
+    """Compare a thousand motions with random blends, durations, laws, corners and branches."""
     rng, stations = np.random.default_rng(8), POSES[arm]
     data = corner(arm, *stations, row=0).data
     asked = [
@@ -119,7 +123,7 @@ def test_numbers_are_those_of_python(browser, arm):
         law, kind = getattr(robokin, data["laws"][law])(seconds), data["corners"][kind]
         away, place = nearest(stations, b, kind)
         assert found[0] == pytest.approx(away / mm, abs=0.0502)
-        # near its least value the distance hardly changes along the path
+        # near the minimum, the distance hardly changes along the path
         assert np.linalg.norm(found[1:4] - place) < 2e-3
         [middle] = path(stations, b, np.array([0.5]), kind)
         assert np.allclose(found[4:7], middle, rtol=0, atol=1e-12)
@@ -134,10 +138,10 @@ def test_opening_values_follow_from_the_formula():
     said = repr(corner())
     away, _ = nearest((START, VIA, GOAL), 0.1, "parabola")
     assert float(re.search(r"passes (\S+) mm from via\.$", said)[1]) == round(away / mm, 1)
-    assert away < 0.05 * D  # the least distance is less than the one in the middle
+    assert away < 0.05 * D  # the least distance is less than the distance in the middle of the path
 
 
-# --- Hands ----------------------------------------------------------------------------------------
+# --- Input ----------------------------------------------------------------------------------------
 
 
 def test_ring_pulls_the_path_away_from_via(opened):
@@ -148,16 +152,18 @@ def test_ring_pulls_the_path_away_from_via(opened):
     for dx in (-40, -90, 60):
         shown.page.mouse.move(*(start + (dx, 7)), steps=3)
         seen = shown.look()
-        assert abs(seen.handles["blend"]["at"][0] - start[0] - dx) < 2, "the ring slips away"
+        assert abs(seen.handles["blend"]["at"][0] - start[0] - dx) < 2, (
+            "the ring does not follow the pointer"
+        )
         pulled.append((dx, box(shown)))
     shown.page.mouse.up()
     shows(shown, box(shown))
-    # the ring moves as the middle of the path does: |D| / 2 per blend
+    # the ring moves like the middle of the path, which moves by |D| / 2 for each unit of blend
     slopes = [(b - 0.1) / dx for dx, b in pulled]
     assert max(slopes) < 0 and np.ptp(slopes) < 0.05 * abs(np.mean(slopes))
 
 
-def test_keys_move_the_ring_and_stop_at_its_ends(opened):
+def test_keys_move_the_ring_between_its_limits(opened):
     shown = opened(corner(), IRB140)
     start = shown.look()
     for key, value in (
@@ -179,7 +185,7 @@ def test_keys_move_the_ring_and_stop_at_its_ends(opened):
     assert shown.look().pixels == start.pixels and box(shown) == 0.1
 
 
-def test_slider_menu_and_duration_change_the_numbers(opened):
+def test_every_input_changes_the_numbers(opened):
     shown = opened(corner(), IRB140)
     seen, unlike = [shown.look()], 0
     for change, values in (
@@ -192,12 +198,14 @@ def test_slider_menu_and_duration_change_the_numbers(opened):
         seen.append(shown.look())
         shows(shown, *values)
         spoken = shown.rk.locator("canvas").first.get_attribute("aria-label")
-        assert spoken.startswith("The corner, close up. The path passes ")
-        assert seen[-1].pixels[1] != seen[-2].pixels[1], "the curves are frozen"
+        assert spoken.startswith("Close-up of the corner. The path passes ")
+        assert seen[-1].pixels[1] != seen[-2].pixels[1], "the curves have not changed"
         unlike += seen[-1].pixels[0] != seen[-2].pixels[0]
         words = seen[-1].words[0].split("|")
         assert {"via", "from start", "to goal", f"{numbers(shown)[0]:.1f} mm"} <= set(words)
-    assert unlike == 3, "the duration changes the path, or something else does not"
+    assert unlike == 3, (
+        "the picture of the corner changed with the duration, or not with a blend or corner"
+    )
     assert shown.rk.get_by_label("via x").count() == 0
 
 
@@ -207,14 +215,15 @@ def test_without_a_blend_the_speed_jumps(opened):
     assert box(shown) == 0
     told = shown.rk.locator(".rk-told").inner_text()
     assert "passes 0.0 mm from via." in told and "NaN" not in told
-    assert "The speed jumps at 10.00 s: there is no acceleration there." in told
-    assert "works hardest" not in told
-    shown.look()  # checks for NaN everywhere
+    assert "The speed jumps at 10.00 s, so there is no finite acceleration." in told
+    assert "accelerates most" not in told
+    shown.look()  # checks that no text contains NaN
     shown.press("blend", "ArrowLeft")
+    shown.look()  # waits until the page has drawn the change
     shows(shown, 0.01)
 
 
-def test_motion_out_of_reach_says_so(opened):
+def test_page_reports_a_motion_out_of_reach(opened):
     far = Transform(VIA.rotation, (0.9, -0.1, 0.8))
     shown = opened(corner(IRB140, START, far, GOAL), IRB140)
     assert re.search(r"No solution in \d+ of 241 samples\.", shown.look().says)
@@ -234,7 +243,7 @@ def test_every_canvas_follows_the_theme_and_is_printed(opened):
     assert not shown.rk.locator(".rk-handle:visible, input:visible").count()
 
 
-def test_wrong_calls_name_what_is_wanted():
+def test_invalid_calls_are_refused():
     beyond = Transform(GOAL.rotation, 2 * VIA.translation - START.translation)
     for stations in ((START, VIA, beyond), (START, START, GOAL), (START, GOAL, GOAL)):
         with pytest.raises(ValueError, match="close_up: wanted a corner at via, got start, via"):
@@ -242,4 +251,5 @@ def test_wrong_calls_name_what_is_wanted():
     with pytest.raises(ValueError, match="close_up: wanted True or False, got 1"):
         motion_explorer(IRB140, START, VIA, GOAL, close_up=1)
     back = corner(IRB140, START, VIA, Transform(GOAL.rotation, START.translation))
-    assert back.data["close_up"] is True  # the way back is a corner, too
+    # a motion that returns along the same line has a corner, too
+    assert back.data["close_up"] is True

@@ -83,7 +83,7 @@ STEEP = """
 
 It doubles.
 
-## Right programs
+## Correct programs
 
 **plain.**
 ```python
@@ -174,6 +174,7 @@ def lab(monkeypatch):
         objectives=("turn", "choose", "catch"),
         exercises=exercises,
         predictions={},
+        moved={},
         broken={},
         given=lambda who: None,
         read=lambda: None,

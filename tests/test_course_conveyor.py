@@ -1,4 +1,6 @@
-"""The exercise and the predictions of lab 14: lines that miss nothing pass, mistakes are named."""
+"""The exercise and the predictions of lab 14: lines that miss no object pass, and mistakes in other
+lines are named.
+"""
 
 import math
 
@@ -14,7 +16,7 @@ Y = np.linspace(-0.4, 0.4, 161)
 
 
 def joints(x, y, z):
-    """The joint values of the arm, from the triangle of its links."""
+    """Return the joint values of the arm, computed from the triangle of its links."""
     l1, l2, rho, d = 0.5, 0.4, math.hypot(x, y), math.hypot(x, y, z)
     beta = math.acos((l1**2 + d**2 - l2**2) / (2 * l1 * d))
     q3 = math.asin((l1**2 + l2**2 - d**2) / (2 * l1 * l2))
@@ -28,7 +30,7 @@ def ways(place):
 
 
 def missed(v, gap, spread, seed, place, arms):
-    """How many objects so many arms miss; a program without the package."""
+    """Return how many objects this number of arms misses, computed without the package."""
     steps = np.random.default_rng(seed).permutation(np.linspace(-1, 1, 200))
     left, takes = np.cumsum(gap * (1 + spread * steps)) / v, ways(place)
     for _ in range(arms):
@@ -57,7 +59,7 @@ def line(own, place, arms, least=None):
 
 
 @pytest.mark.parametrize("who", [f"student {k}" for k in range(8)])
-def test_every_belt_needs_another_bin_than_that_of_the_lab(who):
+def test_no_belt_works_with_the_bin_of_the_lab(who):
     own = variant("conveyor", who)
     numbers = own["v"], own["gap"], own["spread"]
     seeds, most = own["seeds"], own["most"]
@@ -80,7 +82,7 @@ def test_mistakes_in_lines_are_named():
         "rounded down": right | {"least": math.floor(load)},
         "another bound": right | {"least": 30},
         "more arms than allowed": right | {"arms": most + 1},
-        "too few arms": line(own, BIN, 1),  # more than one would be busy all the time
+        "too few arms": line(own, BIN, 1),  # more than one arm would be busy all the time
         "millimetres for metres": right | {"bin": [350, -450]},
         "the bin stands elsewhere": right | {"bin": [0.5, -0.45]},
         "no number of arms for a line": right | {"arms": 0},

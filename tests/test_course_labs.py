@@ -51,11 +51,11 @@ def test_lab_contains_its_predictions_and_exercises_in_order(lab):
     assert len(asked) <= 10 and len(checked) == (1 if lab in SHORT else 3)
 
 
-def test_no_two_labs_ask_a_prediction_with_the_same_id():
+def test_ids_of_predictions_are_unique():
     assert len(set(PREDICTIONS)) == len(PREDICTIONS)
     moved = {p for lab in book.labs() for p in book.lab(lab).moved.values()}
     assert moved <= set(PREDICTIONS)
-    for name in moved:  # the lab that asked it first does not give its number to another one
+    for name in moved:  # the lab that asked it first does not use its number again
         first, _, number = name.partition(".")
         assert number not in book.lab(first).predictions, name
 
@@ -85,7 +85,7 @@ def test_every_objective_is_practised_and_named_in_the_lab(lab, monkeypatch):
     plain = re.sub(r"[*\s]+", " ", words)
     for objective in made.objectives:
         assert objective.rstrip(".;") in plain, objective
-    if lab in SHORT[1:]:  # questions practise what no exercise does
+    if lab in SHORT[1:]:  # questions practise the objectives that have no exercise
         listed = re.search(r"\*\*You will be able to\*\*\n\n(.*?)\n\n", words_of(lab), re.S)[1]
         parts = re.findall(r"\((exercise 1|question in section \d)\)[;.]$", listed, re.M)
         assert len(parts) == 3 == listed.count("\n") + 1 and "exercise 1" in parts
@@ -100,7 +100,7 @@ def test_last_cell_makes_the_report_and_your_turn_refers_to_it(lab):
     """The cell uses the student's name, which an earlier cell or its own first line sets."""
     sources = ["".join(c["source"]) for c in cells(lab)]
     end = next(k for k, text in enumerate(sources) if text.startswith("## In short"))
-    if lab_sizes.old(cells(lab)):  # there the last cell of "Your turn" makes the report
+    if lab_sizes.old(cells(lab)):  # here the last cell of "Your turn" makes the report
         assert re.search(r"^report\(who\)$", sources[end - 1], re.M)
     else:
         assert re.search(r"^report\(who\)$", sources[-1], re.M)

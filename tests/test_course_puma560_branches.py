@@ -32,7 +32,7 @@ def by_flags(q, a2, a3, d4):
 
 
 def by_places(q, a2, a3, d4):
-    """From the places of elbow and wrist centre, as measured in the plane of the arm."""
+    """Name a posture from the places of elbow and wrist centre in the plane of the arm."""
     elbow = a2 * np.exp(1j * q[1])
     wrist = elbow + (a3 + 1j * d4) * np.exp(1j * (q[1] + q[2]))
     above = elbow.imag > wrist.imag * elbow.real / wrist.real
@@ -40,7 +40,7 @@ def by_places(q, a2, a3, d4):
 
 
 def by_row(q, *lengths):
-    """From the row of the PUMA's inverse that is this posture, up to whole turns."""
+    """Name a posture from the row of `PUMA560.ik` that equals it up to whole turns."""
     off = np.sin((PUMA560.ik(PUMA560.fk(q)) - q) / 2)
     front, elbow, wrist = PUMA560.branches[abs(off).max(axis=-1).argmin()]
     return " ".join(said(front > 0, front * elbow < 0, wrist > 0))

@@ -1,4 +1,6 @@
-"""The exercise and the predictions of lab 13: feasible ramps pass, and mistakes are named."""
+"""The exercise and the predictions of lab 13: feasible ramps pass, and mistakes in other ramps are
+named.
+"""
 
 import math
 from dataclasses import replace
@@ -17,7 +19,7 @@ MOTOR, WEAK = Stepper(rise=0), Stepper(torque=0.016, rise=0)
 
 
 def made_steps(motor, times, load_inertia):
-    """The steps that a magnet makes in wave drive, by SciPy."""
+    """Return the number of steps that a magnet rotor makes in wave drive, computed with SciPy."""
     state, angles = [0.0, 0.0], [0.0, *times, times[-1] + 2]
     inertia = motor.inertia + load_inertia
     for k, (a, b) in enumerate(zip(angles, angles[1:], strict=False)):
@@ -35,7 +37,7 @@ def made_steps(motor, times, load_inertia):
 
 
 @pytest.mark.parametrize("who", [f"student {k}" for k in range(12)])
-def test_every_student_needs_a_ramp_and_has_one(who):
+def test_every_student_needs_a_ramp_and_can_find_one(who):
     own = variant("rotor", who)
     load = own["load_inertia"]
     assert 1e-6 <= load < 4.1e-6 and 48 / MOTOR.start_frequency(load_inertia=load) > own["within"]
@@ -44,7 +46,7 @@ def test_every_student_needs_a_ramp_and_has_one(who):
     assert check("rotor.1", made, who=who).holds
 
 
-def test_verdict_agrees_with_another_integrator():
+def test_verdict_agrees_with_a_second_integrator():
     own = variant("rotor", "Ada")
     f, load = WEAK.start_frequency(load_inertia=own["load_inertia"]), own["load_inertia"]
     seen = set()
@@ -77,7 +79,7 @@ def test_mistakes_in_ramps_are_named():
     for name, (start, end, seconds) in wrong.items():
         verdict = check("rotor.1", {"start": start, "end": end, "seconds": seconds}, who="Ada")
         assert verdict.mistake == name and verdict.points < 1
-    # the shortest ramp with which the full torque makes every step is too short for the weaker one
+    # the shortest ramp with which the motor loses no steps is too short for the weak motor
     edge = next(
         r
         for r in np.arange(0.02, 0.5, 0.01)
@@ -93,7 +95,7 @@ def test_mistakes_in_ramps_are_named():
 
 
 def test_four_times_the_inertia_needs_twice_the_friction_to_halve_the_frequency():
-    """With J, b and t in the ratios 4, 2 and 2 the equation of motion is the same."""
+    """If J, b and t are multiplied by 4, 2 and 2, the equation of motion remains the same."""
     options, right = filled(LAB.predictions["p1"])[1:]
     top = MOTOR.start_frequency()
     assert options[right].text.startswith("Up to 72 pulses/s")
@@ -102,8 +104,9 @@ def test_four_times_the_inertia_needs_twice_the_friction_to_halve_the_frequency(
     assert more.start_frequency(load_inertia=3e-6) == top / 2 == 63
 
 
-def test_another_integrator_also_loses_steps_in_multiples_of_four():
-    # p10 is computed with SciPy, without the windings' time constant, which does not change it
+def test_second_integrator_also_loses_steps_in_multiples_of_four():
+    # p10 is computed with SciPy; the time constant of the windings is left out, since it does not
+    # change the result
     def lost(frequency):
         theta, omega, since, ends = (
             0.0,

@@ -21,7 +21,7 @@ CIRCLE, FACTS = LAB.module("own_circle"), LAB.module("predictions")
 
 
 def _by_direction(q1, q2, l1, along, side):
-    """Both sides of the triangle are mirrored in the line to the camera."""
+    """Mirror both sides of the triangle in the line to the camera."""
     camera = l1 * np.exp(1j * q1) + (along + 1j * side) * np.exp(1j * (q1 + q2))
     sides = [l1 * np.exp(1j * q1), (along + 1j * side) * np.exp(1j * (q1 + q2))]
     first, second = (np.angle(camera**2 / each) for each in sides)
@@ -29,7 +29,7 @@ def _by_direction(q1, q2, l1, along, side):
 
 
 def _by_a_longer_arm(q1, q2, l1, along, side):
-    """The inverse of a SCARA whose second lever ends at the camera."""
+    """Use the inverse of a SCARA whose second lever ends at the camera."""
     reach, offset = np.hypot(along, side), np.arctan2(side, along)
     arm = scara_arm("to the camera", 1.0, l1, reach, np.array([(-4, 4)] * 3 + [(0, 1)]))
     rows = arm.ik(arm.fk([q1, q2 + offset, 0, 0]))
@@ -60,7 +60,7 @@ def test_every_listed_mistake_is_named(number):
 
 
 def _by_ik_alone(q1, q2, l1, along, side):
-    """What the lab's arm says about the place of its tool."""
+    """Use the inverse of the lab's arm for the position of its tool, not of the camera."""
     rows = SCARA.ik(SCARA.fk([q1, q2, 0, 0]))
     return rows[1 if q2 >= 0 else 0, :2]
 
@@ -162,7 +162,7 @@ def test_mistakes_in_circles_are_named(change, name):
     assert name is None or verdict.mistake == name, verdict
 
 
-def test_hole_is_where_the_tool_is_with_joint_2_at_the_stop():
+def test_tool_is_at_the_edge_of_the_hole_with_joint_2_at_its_stop():
     for who in ("Ada", "Grace", "7"):
         numbers = variant("scara_kinematics", who)
         x, y, _ = SCARA.fk([0, numbers["stop"], 0, 0]).translation
@@ -184,7 +184,7 @@ def test_task_matches_the_circle_in_the_lab():
 
 
 def _sample_by_sample(radius, turns, elbow, limits):
-    """Without `ik` and `follow`: the law of cosines at each of the samples."""
+    """Use the law of cosines at each sample instead of `ik` and `follow`."""
     l1, l2 = LEVERS
     most = [0.0] * 4
     for beta in np.linspace(0, 2 * np.pi, 401):
@@ -197,7 +197,7 @@ def _sample_by_sample(radius, turns, elbow, limits):
     return most
 
 
-def test_excess_found_by_another_method_passes():
+def test_excess_found_with_the_law_of_cosines_passes():
     verdict = check("scara_kinematics.3", _sample_by_sample)
     assert verdict.holds, verdict
 

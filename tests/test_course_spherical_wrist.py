@@ -358,7 +358,7 @@ def test_answers_to_the_last_predictions_agree_with_other_methods():
     fast = [FACTS["fastest"](miss * mm) for miss in (4, 2, 1)]
     assert np.allclose(fast[1:] / np.array(fast[:-1]), 2, rtol=0.01)
     assert right("p8").startswith("5730°/s")
-    assert fast[2] * deg == pytest.approx(100, rel=1e-5)  # the tool's speed over the miss
+    assert fast[2] * deg == pytest.approx(100, rel=1e-5)  # the tool's speed divided by the miss
 
 
 def test_test_must_check_the_middle_angle():

@@ -145,7 +145,7 @@ def test_workspace_is_where_the_principal_branch_is_inside_its_limits(l1, l2):
 @pytest.mark.parametrize(
     "l1, l2, point, words",
     [
-        (5, 4, (9, 0.1, 0), "is too far: 0.0005555 m beyond the stretched arm, l1 + l2 = 9 m"),
+        (5, 4, (9, 0.1, 0), "is too far: 0.0005555 m beyond the reach of the arm, l1 + l2 = 9 m"),
         (5, 4, (1, 1, -0.25), "is under the floor: z = -0.25 m"),
         (
             5,
@@ -213,7 +213,7 @@ def test_solutions_outside_the_workspace_are_nan(l1, l2):
         beyond = np.multiply(direction, (l1 + l2) * (1 + 1e-9))
         assert workspace(l1, l2, beyond).tolist() == [False, True, True, True]
         assert np.isnan(spbu_arm(l1, l2).ik(beyond)).all()
-        assert "beyond the stretched arm" in explain(spbu_arm(l1, l2), beyond, 0)
+        assert "beyond the reach of the arm" in explain(spbu_arm(l1, l2), beyond, 0)
     assert workspace(l1, l2, (1, 0, -1e-9)).tolist()[1] is False
 
 

@@ -1,5 +1,5 @@
-"""The explorer of an elbow in a real browser: the triangles of the page are those of independent
-formulas, and its numbers and sentences say what a reader sees.
+"""The elbow explorer in a real browser: the triangles in the page match independent formulas, and
+the numbers and sentences match the picture.
 """
 
 import re
@@ -39,8 +39,7 @@ def triangle(r, z):
     bend = np.arccos((d**2 - L2**2 - L3**2) / (2 * L2 * L3))
     rows = []
     for gamma in (-bend, bend):
-        # the sine theorem holds for the sine and the cosine rule for the cosine of the angle at
-        # joint 2
+        # the law of sines gives the sine of the angle at joint 2, the law of cosines its cosine
         at_joint_2 = np.arctan2(L3 * np.sin(gamma) / d, (L2**2 + d**2 - L3**2) / (2 * L2 * d))
         alpha = np.arctan2(w, u) - at_joint_2
         rows.append(np.array([gamma, alpha, alpha - np.pi / 2, -np.pi / 2 - gamma]) / deg)
@@ -52,7 +51,7 @@ def triangle(r, z):
 
 @pytest.mark.parametrize("machine", SIX, ids=repr)
 def test_page_triangles_match_independent_formulas(context, machine):
-    """1000 places in front of axis 1 and behind it, within reach and out of it."""
+    """Compare 1000 places in front of axis 1 and behind it, within reach and out of reach."""
     arm, known = machine.arm, machine.wrist
     shoulder, upper, fore = np.array(known["shoulder"]), known["upper"], known["fore"]
     rng = np.random.default_rng(2)
@@ -95,7 +94,7 @@ def test_page_triangles_match_independent_formulas(context, machine):
             past = 1 + np.flatnonzero(~within(arm, q)[1:3])
             assert each["past"] == past.tolist()
             counts["past" if len(past) else "inside"] += 1
-    if np.ptp(arm.limits[1:3], axis=-1).min() > 2 * np.pi:  # no angle is past a limit
+    if np.ptp(arm.limits[1:3], axis=-1).min() > 2 * np.pi:  # no angle exceeds a limit
         assert counts.pop("past") == 0
     assert min(counts.values()) > 100, counts
 
@@ -110,7 +109,7 @@ def moved(shown, r, z):
 
 
 def cells(seen):
-    """The numbers of the table below the sliders: u, w, d, and a row for each elbow."""
+    """Return the numbers in the table below the sliders: u, w, d, and a row for each elbow."""
     lengths, *rows = seen.rows
     assert [row[0] for row in rows] == ["elbow +1", "elbow -1"]
     return (
@@ -135,7 +134,7 @@ def test_dragging_the_ring_moves_the_triangle(opened):
     x, y = start.handles["point"]["at"]
     seen = shown.drag("point", (x + 40, y + 10), (x + 60, y + 90), (x - 60, y + 40), each=each)
     assert len(set(stops)) == 3 and seen.pixels != start.pixels
-    # to scale: as many pixels ahead as up for the same length
+    # to scale: equal lengths have the same number of pixels horizontally and vertically
     (r, z, _), (r2, z2, _) = stops[:2]
     assert (r2 - r) / 20 == pytest.approx((z - z2) / 80, rel=0.02)
     shown.press("point", "Home")
@@ -163,9 +162,9 @@ def test_keys_move_the_ring_and_choose_the_elbow(opened):
     assert shown.look().boxes == {"r": -750, "z": 1150}, "the point leaves the picture"
 
 
-def test_reader_is_told_what_is_special_about_a_place(opened):
+def test_special_positions_are_explained(opened):
     shown = opened(elbow_explorer(IRB140))
-    one = "both elbows are one (elbow singularity)."
+    one = "both elbows coincide (elbow singularity)."
     stretched = moved(shown, L1 + L2 + L3, L0)
     assert stretched.says.startswith(f"The arm is stretched: {one}")
     assert cells(stretched)[1] == pytest.approx(np.array([[0, 0, -90, -90]] * 2), abs=1e-9)
@@ -182,10 +181,12 @@ def test_reader_is_told_what_is_special_about_a_place(opened):
         assert seen.faint[1:] == [True, True] and "α" not in seen.words[0]
     assert seen.says.endswith(f"Behind axis 1: the front flag is {MINUS}1.")
     assert "front flag" not in moved(shown, 200, 700).says
-    assert moved(shown, 0, 700).says.startswith("On axis 1: q1 is free (shoulder singularity).")
+    assert moved(shown, 0, 700).says.startswith(
+        "On axis 1: q1 can have any value (shoulder singularity)."
+    )
 
 
-def test_joints_past_a_limit_are_named_with_the_excess(opened):
+def test_joints_that_exceed_a_limit_are_named_with_the_excess(opened):
     shown, limits = opened(elbow_explorer(IRB140)), IRB140.limits / deg
     told = set()
     for r, z in ((600, 352), (150, 420), (-200, 500), (500, 120), (330, 800)):
@@ -206,7 +207,7 @@ def test_joints_past_a_limit_are_named_with_the_excess(opened):
     assert {(), (1,), (2,)} <= told
 
 
-def test_picture_is_named_after_what_it_shows(opened):
+def test_accessible_name_describes_the_picture(opened):
     view = elbow_explorer(IRB140)
     shown = opened(view)
     name = lambda: shown.rk.locator("canvas").get_attribute("aria-label")  # noqa: E731
@@ -225,7 +226,7 @@ PLACES += ((-300, 700), (-700, 20), (600, 352), (70, 1000), (850, 1150))
 
 
 @pytest.mark.parametrize("width, theme", [(914, "light"), (390, "dark")])
-def test_words_on_the_picture_can_be_read_wherever_the_point_is(browser, opened, width, theme):
+def test_labels_are_readable_wherever_the_point_is(browser, opened, width, theme):
     with browser.new_context(
         viewport={"width": width, "height": 800}, color_scheme=theme, has_touch=width < 400
     ) as small:
@@ -252,7 +253,7 @@ def test_words_on_the_picture_can_be_read_wherever_the_point_is(browser, opened,
     [spbu_arm(1, 0.05), spbu_arm(0.3, 0.3), spbu_arm(4 * mm, 3 * mm), loader_arm(3.1, 2.2)],
     ids=["unequal", "equal", "tiny", "large"],
 )
-def test_every_elbow_opens_within_reach(arm):
+def test_explorer_opens_with_a_point_within_reach(arm):
     view = elbow_explorer(arm)
     r, z = view.data["point"]
     low, high = (
@@ -265,6 +266,6 @@ def test_every_elbow_opens_within_reach(arm):
 
 
 @pytest.mark.parametrize("arm", [SCARA, three_lever(0.3), UR5, "IRB-140"])
-def test_arm_without_such_a_triangle_is_refused(arm):
+def test_arm_without_an_elbow_is_refused(arm):
     with pytest.raises(TypeError, match="arm: wanted"):
         elbow_explorer(arm)

@@ -331,7 +331,7 @@ def test_labs_without_a_notebook_come_last(tmp_path, monkeypatch):
 def test_installation_without_a_clone_says_what_to_do(tmp_path, monkeypatch):
     monkeypatch.setattr(book, "OURS", tmp_path / "exercises")
     monkeypatch.delenv(book.ELSEWHERE, raising=False)
-    says = "no labs found. Install robokin from its clone, or set ROBOKIN_EXERCISES"
+    says = "no labs found. Install robokin from a clone of its repository, or set ROBOKIN_EXERCISES"
     assert says in repr(check("scara_motion.1", 3)) and not check("scara_motion.1", 3).answered
     calls = (hint, shown, predict, progress, lambda name: variant(name, "Ada"))
     for call in calls:
@@ -368,7 +368,7 @@ def my_test(program):
     return program(3) == 6 and program(2) == 4
 ```
 
-## Right programs
+## Correct programs
 
 **plain.**
 ```python
@@ -488,12 +488,12 @@ BROKEN = {
         ".md, line 1: 1 is also the number of a.md",
     ),
     "right programs without a program": (
-        altered(text=f"{REACH}\n## Right programs\n\n**plain.** None.\n"),
+        altered(text=f"{REACH}\n## Correct programs\n\n**plain.** None.\n"),
         CASES,
-        ".md, line 30: wanted a section 'Right programs' with a program",
+        ".md, line 30: wanted a section 'Correct programs' with a program",
     ),
     "right programs without a name": (
-        altered(text=f"{REACH}\n## Right programs\n\n```python\ndef f(x):\n    return x\n```\n"),
+        altered(text=f"{REACH}\n## Correct programs\n\n```python\ndef f(x):\n    return x\n```\n"),
         CASES,
         ".md, line 32: wanted '**what is special.**' above the program",
     ),

@@ -14,7 +14,7 @@ from fitting import SCREEN, sizes, walked
 
 LABS = [path.stem for path in sorted(NOTEBOOKS.glob("*.ipynb"))]
 NEXT = "() => new Promise(done => requestAnimationFrame(() => requestAnimationFrame(done)))"
-# The sentences of every visible player that do not fit into their box
+# Returns the sentences of visible players that do not fit into their boxes
 CUT = """() => [...document.querySelectorAll(".rk-player .rk-says")]
   .filter(box => box.clientHeight && box.scrollHeight > box.clientHeight + 1)
   .map(box => box.innerText)"""

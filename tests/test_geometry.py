@@ -262,13 +262,13 @@ def test_every_gap_and_singularity_has_an_explanation():
     offset = PUMA560.fk(np.full(6, 0.2))
     inside = Transform(offset.rotation, (0.0, 0.01, 0.7))
     for arm, pose, words in (
-        (two_link(1, 0.5), (3, 0), "the target is 1500.0 mm beyond the stretched arm"),
+        (two_link(1, 0.5), (3, 0), "the target is 1500.0 mm beyond the reach of the arm"),
         (two_link(1, 0.5), (0.1, 0), "the target is 400.0 mm too near to the base"),
         (two_link(1, 0.5), (1, 0, 0.2), "the target is 200.0 mm off the plane z = 0"),
         (SCARA, tilted, "the tool is tilted by 1.0°, and a SCARA's tool stays upright"),
         (SCARA, ScaraPose((0.01, 0, 0.1)), "the target is 40.0 mm too near to axis 1"),
         (loader_arm(1, 0.5), (0, 0, 0.2), "the point is 300.0 mm too near to joint 2"),
-        (loader_arm(1, 0.5), (0, 20, 0), "the point is 18.5 m beyond the stretched arm"),
+        (loader_arm(1, 0.5), (0, 20, 0), "the point is 18.5 m beyond the reach of the arm"),
         (PUMA560, inside, "the wrist centre is 1"),
     ):
         said = explain(arm, pose, 0)

@@ -106,7 +106,7 @@ RUNS = (  # elements and attributes that run a script
     '# a" onclick="JS',
     "<h2 id=\"x\" onclick='JS'>heading</h2>",
 )
-LEADS = (  # elements that open another address, immediately or on a click
+LEADS = (  # elements that open another address, immediately or when they are clicked
     '<meta http-equiv="refresh" content="0;url=URL/refresh">',
     '<base href="URL/">',
     '<a href="javascript:JS">a link</a>',

@@ -190,7 +190,7 @@ def test_unreachable_coordinates_get_a_reason():
     arm = loader_arm(1.2, 0.7)
     assert out_of_reach(arm, (1, 0.5, 0.4)) == []
     assert out_of_reach(arm, (1, 0.5, -0.1)) == ["the point is under the floor: z = -0.1 m"]
-    assert out_of_reach(arm, (2, 0, 0)) == ["the point is 100.0 mm beyond the stretched arm"]
+    assert out_of_reach(arm, (2, 0, 0)) == ["the point is 100.0 mm beyond the reach of the arm"]
     # the inner bound of errata S3-r
     assert out_of_reach(arm, (0.3, 0, 0.1)) == ["the point is 183.8 mm too near to joint 2"]
     assert len(out_of_reach(arm, (2, 0, -1))) == 2

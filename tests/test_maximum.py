@@ -54,7 +54,7 @@ def test_minimum_is_the_maximum_of_the_negative():
         (
             (lambda x: -np.log(abs(x - np.sqrt(0.5)) + 1e-300), 0, 1, 2),
             ValueError,
-            "a maximum that converges",
+            "wanted one for which the search converges",
         ),
     ],
 )

@@ -1,5 +1,5 @@
-"""A prediction that moves to another lab keeps its id: the new lab asks it and counts it, and work
-on the old version of the lab can still be read.
+"""A prediction that moves to another lab keeps its id: the new lab asks and counts it, and work on
+older versions of the labs can still be read.
 """
 
 import json
@@ -36,13 +36,13 @@ def half(x):
 ```
 """
 CASES = "def cases(rng):\n    return [(x,) for x in rng.uniform(1, 9, 5)]\n"
-LABS = {"early": ("p1", "p3"), "late": ("early.p2", "p1")}  # early asked p2 once
+LABS = {"early": ("p1", "p3"), "late": ("early.p2", "p1")}  # early used to ask p2
 TIMES = [f"2026-11-23T12:00:0{k}.000+01:00" for k in range(9)]
 
 
 @pytest.fixture(autouse=True)
 def labs(tmp_path, monkeypatch):
-    """Two labs of a teacher."""
+    """Create two labs of a teacher."""
     for lab, headings in LABS.items():
         folder = tmp_path / "exercises" / lab
         folder.mkdir(parents=True)
@@ -60,17 +60,19 @@ def asking(path, *ids):
 
 
 def results(path):
-    """The guesses that a report of the notebook lists: id -> (choice, whether it is right)."""
+    """Return the guesses in a report on the notebook: a dict that maps an id to (choice, whether it
+    is right).
+    """
     return {each.id: (each.choice, each.right) for each in guesses(handed_in(path))}
 
 
 def reported(path, who="Ada"):
-    """The data of the notebook's report, read from its page."""
+    """Return the data of a report on the notebook, read from its page."""
     handed = handed_in(path)
     return report_data(page(told(handed, who, Judged(None, (), guesses(handed), ()))))
 
 
-def test_moved_prediction_is_found_by_its_old_id_alone():
+def test_moved_prediction_is_found_only_by_its_old_id():
     assert book.ids("early", "predictions") == ["early.p1", "early.p3"]
     assert book.ids("late", "predictions") == ["early.p2", "late.p1"]
     assert book.home("early.p2") == "late" and book.home("early.p1") == "early"
@@ -82,7 +84,7 @@ def test_moved_prediction_is_found_by_its_old_id_alone():
     assert check("late.1", lambda x: x / 2).holds
 
 
-def test_two_predictions_of_a_lab_cannot_have_one_number(tmp_path):
+def test_two_predictions_of_a_lab_cannot_have_the_same_number(tmp_path):
     (tmp_path / "exercises" / "late" / "predictions.md").write_text(
         f"## early.p2\n{ASKED}\n## p2\n{ASKED}"
     )
@@ -92,7 +94,7 @@ def test_two_predictions_of_a_lab_cannot_have_one_number(tmp_path):
     assert len(lab.broken) == 1 and "p2 occurs twice" in str(lab.broken)
 
 
-def test_guess_is_reported_by_the_lab_that_asks_now(tmp_path):
+def test_guess_is_reported_by_the_lab_that_now_asks_the_prediction(tmp_path):
     late = asking(tmp_path / "late.ipynb", "early.p2", "late.p1")
     early = asking(tmp_path / "early.ipynb", "early.p1", "early.p3")
     keep(late, [("early.p2", "b", TIMES[1]), ("late.p1", "a", TIMES[2])])
@@ -106,7 +108,7 @@ def test_guess_is_reported_by_the_lab_that_asks_now(tmp_path):
     assert [each["id"] for each in reported(early)["predictions"]] == ["early.p1", "early.p3"]
 
 
-def test_copied_line_reaches_the_lab_that_asks_now(tmp_path):
+def test_copied_line_is_read_by_the_lab_that_now_asks_the_prediction(tmp_path):
     cells = ['predict("early.p2")', 'predict("late.p1")']
     for line in ("p2 b, late.p1 a", "early.p2 b, p1 a", "p2 b, p1 a, early.p1 c"):
         late = stored(tmp_path / "late.ipynb", *cells, f'report("Ada", guesses="{line}")')
@@ -117,7 +119,7 @@ def test_older_notebook_with_the_prediction_is_still_read(tmp_path):
     ids = ("early.p1", "early.p2", "early.p3")
     old = asking(tmp_path / "early.ipynb", *ids)
     first = {"early.p1": (None, None), "early.p3": (None, None)}
-    assert handed_in(old).lab == "early" and results(old) == first, "p2 is no longer wanted"
+    assert handed_in(old).lab == "early" and results(old) == first, "p2 is no longer reported"
     keep(old, [("early.p2", "c", TIMES[1])])
     assert results(old) == first | {"early.p2": ("c", False)}
     assert [each["id"] for each in reported(old)["predictions"]] == [ids[0], ids[2], ids[1]]
@@ -126,12 +128,12 @@ def test_older_notebook_with_the_prediction_is_still_read(tmp_path):
     assert results(line) == {**first, "early.p1": ("a", True), "early.p2": ("b", False)}
     call = stored(tmp_path / "call.ipynb", f'predict("{ids[0]}", "a"); predict("{ids[1]}", "a")')
     assert results(call) == {**first, "early.p1": ("a", True), "early.p2": ("a", True)}
-    # the new version of the notebook has the guesses of the old one, and no longer asks p2
+    # the new version of the notebook has the guesses of the old version, but no longer asks p2
     assert results(asking(old, "early.p1", "early.p3")) == first
 
 
 def older_report(who, choice):
-    """The data of a report on the early lab when it still asked p2."""
+    """Return the data of a report on the lab early from the time when it still asked p2."""
     data = report_of(who, "early")
     data["predictions"].insert(1, {**data["predictions"][0], "id": "early.p2"})
     if choice:
@@ -151,7 +153,7 @@ def test_older_report_is_still_read(tmp_path):
             report_data(page(other))
 
 
-def test_summary_counts_it_under_the_lab_that_asks_now(tmp_path):
+def test_summary_counts_a_moved_prediction_under_its_new_lab(tmp_path):
     old = older_report("Ada", "b")
     old["predictions"][0] |= {"choice": "c", "right": False, "confusion": "twice for half"}
     new = report_of("Bob", "late")
@@ -174,7 +176,7 @@ def test_summary_counts_it_under_the_lab_that_asks_now(tmp_path):
     assert row[0].startswith(f"{book.titled('late').capitalize()}: ") and row[2] == "2"
 
 
-def test_notebook_does_not_take_the_guesses_of_a_renamed_one_of_another_lab(tmp_path):
+def test_notebook_does_not_take_guesses_from_a_renamed_notebook_of_another_lab(tmp_path):
     ids = ("early.p1", "early.p2", "early.p3")
     old = asking(tmp_path / "early.ipynb", *ids)
     keep(old, [(name, "a", TIMES[k]) for k, name in enumerate(ids)])
@@ -188,13 +190,13 @@ def test_notebook_does_not_take_the_guesses_of_a_renamed_one_of_another_lab(tmp_
     assert [choice for choice, _ in read_guesses(late)["early.p2"]] == ["c"]
 
 
-def test_notebook_without_a_name_is_recognised_by_what_its_lab_asks():
+def test_notebook_without_a_name_is_recognised_by_its_predictions():
     assert _lab(['predict("early.p2")', 'hint("late.1")']) == "late"
     assert _lab(['predict("early.p2")', 'predict("early.p1")', 'predict("early.p3")']) == "early"
     assert _lab(['print("os.1")']) is None
 
 
-def test_labs_13_and_14_ask_what_labs_11_and_08_asked_before(tmp_path):
+def test_labs_13_and_14_ask_predictions_moved_from_labs_11_and_08(tmp_path):
     moved = {
         "rotor": ["motor_synchronisation.p8", "motor_synchronisation.p10"],
         "conveyor": ["visit_and_collect.p9"],

@@ -1,5 +1,5 @@
-"""The explorer of least movement in a real browser, compared with circles and searches written
-here: the sum S of the angle changes, its terms, its kinks, its least value, and two tasks in turn.
+"""The movement explorer in a real browser: the sum S of the angle changes, its terms, its kinks,
+its least value and the total of two targets match independent formulas and searches.
 """
 
 import re
@@ -22,7 +22,9 @@ NAMES = ["gamma", "beta", "alpha"]
 
 
 def posture(K, alpha, lengths=(1, 1, 1)):
-    """The postures (..., 3) at the complex number K: B is to the left of OK, A to that of BK."""
+    """Return the postures (..., 3) for the complex number K, with B to the left of OK and A to the
+    left of BK.
+    """
     a, b, c = lengths
     KB, KO = abs(b - c * np.exp(1j * alpha)), abs(K)
     along = (KO**2 + a**2 - KB**2) / (2 * KO)
@@ -33,7 +35,9 @@ def posture(K, alpha, lengths=(1, 1, 1)):
 
 
 def kinks_of(K, before, ends, lengths=(1, 1, 1)):
-    """[(joint, alpha)] where an angle has its previous value: sign changes on a grid, refined."""
+    """Return a list of (joint, alpha) for which an angle has its previous value. They are found as
+    sign changes on a grid and then refined.
+    """
     alphas = np.linspace(*ends, 801)
     change = posture(K, alphas, lengths) - before
     found = []
@@ -48,7 +52,7 @@ def kinks_of(K, before, ends, lengths=(1, 1, 1)):
 
 @pytest.fixture(scope="module")
 def levers(context):
-    """A function that calls a function of levers.js: `levers(name, *arguments)`."""
+    """Return a function that calls one of levers.js: `levers(name, *arguments)`."""
     page = context.new_page()
     page.goto("about:blank")
     page.add_script_tag(content=f"{script('levers')}\nwindow.levers = $levers;")
@@ -80,11 +84,11 @@ def test_page_finds_every_kink(levers, arm):
 
 
 def numbers(text):
-    """The numbers of the sentence below the curve, and its words on where S is least."""
+    """Return the numbers in the sentence below the curve, and its words on where S is least."""
     form = (
         r"gamma (.*)°, beta (.*)°, alpha (.*)°: S = (.*)° \+ (.*)° \+ (.*)° = (.*)°; the longest "
-        r"turn is (.*)°\. The least S is (.*)°, at alpha = (.*)°: ([^.]*)\.(?: With the (.*)° "
-        r"before, (.*)° in all\.)?"
+        r"turn is (.*)°\. The least S is (.*)°, at alpha = (.*)°: ([^.]*)\.(?: With the "
+        r"earlier (.*)°, the total is (.*)°\.)?"
     )
     *values, where, before, total = re.fullmatch(form, text).groups()
     return [float(x) for x in values], where, *[x and float(x) for x in (before, total)]
@@ -110,7 +114,9 @@ def shows(shown, before, turned=None):
     assert near[0] - 0.1 < values[9] < near[-1] + 0.1
     kept = [NAMES[j] for j in np.flatnonzero(abs(rows[best] - before) < 0.02 * deg)]
     at_end = best in (0, len(fine) - 1)
-    wanted = f"{' and '.join(kept)} keep" if kept else "an end of its range" if at_end else "S is"
+    wanted = (
+        f"{' and '.join(kept)} keep" if kept else "an end of its range" if at_end else "the curve"
+    )
     assert where.startswith(wanted)
     assert (earlier is None) == (turned is None)
     if turned is not None:
@@ -124,7 +130,7 @@ def shows(shown, before, turned=None):
         (j, pytest.approx(alpha / deg, abs=0.06)) for j, alpha in kinks
     ]
     scene = shown.rk.locator("canvas").first.get_attribute("aria-label")
-    assert scene.endswith(seen.says), "the spoken name of the scene is old"
+    assert scene.endswith(seen.says), "the accessible name of the scene is out of date"
     return q, change.sum()
 
 
@@ -139,8 +145,10 @@ def test_page_shows_the_terms_the_kinks_and_the_least_sum(opened):
         shows(shown, SQUARE)
         least_at.add(numbers(shown.look().says)[1].split()[-1])
         pictures.append(shown.look().pixels)
-    assert least_at == {"value", "there", "range"}, "a kink, a level place, an end of the range"
-    assert len({tuple(each) for each in pictures}) == len(pictures), "the picture is frozen"
+    assert least_at == {"value", "there", "range"}, (
+        "the least S should be at a kink, a level place and an end of the range"
+    )
+    assert len({tuple(each) for each in pictures}) == len(pictures), "the picture has not changed"
     shown.press("free", "Home")
     shown.rk.get_by_role("button", name="Least S").click()
     q, S = shows(shown, SQUARE)
@@ -149,7 +157,7 @@ def test_page_shows_the_terms_the_kinks_and_the_least_sum(opened):
     )
 
 
-def test_joint_a_follows_the_pointer_and_the_gripper_stays(opened):
+def test_joint_a_follows_the_pointer_and_the_gripper_stays_in_place(opened):
     shown = opened(movement_explorer(ARM, SQUARE, PLACE), ARM)
     start = shown.take("alpha")
     alphas = []
@@ -159,7 +167,7 @@ def test_joint_a_follows_the_pointer_and_the_gripper_stays(opened):
         alphas.append(q[2])
         at = np.array(shown.look().handles["alpha"]["at"])
         A = pixels_of(shown, ARM.points(q)[2])
-        assert np.linalg.norm(at - A) < 3, "the handle leaves joint A"
+        assert np.linalg.norm(at - A) < 3, "the handle is not at joint A"
     shown.page.mouse.up()
     assert len(set(alphas)) == 4 and np.ptp(alphas) > 20 * deg
     assert {name: shown.look().boxes[name] for name in "xy"} == {"x": 1.8, "y": 0.6}
@@ -175,7 +183,7 @@ def test_joint_a_follows_the_pointer_and_the_gripper_stays(opened):
 
 
 def pixels_of(shown, place):
-    """Where a point (2,) of the plane is on the page, from the places of both ends of the arm."""
+    """Return the pixels of a point (2,) of the plane, from those of both ends of the arm."""
     base = np.zeros(2)
     gripper = np.array([shown.look().boxes[name] for name in "xy"])
     there = np.array(shown.look().handles["free"]["at"])
@@ -185,7 +193,7 @@ def pixels_of(shown, place):
     return there + (np.asarray(place) - gripper + base) * scale * [1, -1]
 
 
-def test_two_tasks_are_done_in_turn_and_added_up(opened):
+def test_page_adds_up_the_angle_changes_of_two_targets(opened):
     shown = opened(movement_explorer(ARM, STAND, TASKS), ARM)
     first = shown.look()
     shown.rk.get_by_role("button", name="Least S").click()
@@ -218,7 +226,7 @@ def test_page_says_why_a_point_is_out_of_reach(opened, arm):
     shown.rk.get_by_role("button", name="Least S").click()
     shown.rk.get_by_role("button", name="Begin here").click()
     shown.press("free", "Home")
-    assert numbers(shown.look().says)[2] is None, "a posture that does not exist was a task"
+    assert numbers(shown.look().says)[2] is None, "a posture that does not exist was accepted"
 
 
 @pytest.mark.parametrize(
@@ -234,7 +242,7 @@ def test_page_says_why_a_point_is_out_of_reach(opened, arm):
         ((ARM, SQUARE, (np.nan, 1)), ValueError, "target: wanted finite numbers"),
     ],
 )
-def test_wrong_arguments_are_refused(given, error, says):
+def test_invalid_arguments_are_refused(given, error, says):
     with pytest.raises(error, match=says):
         movement_explorer(*given)
 

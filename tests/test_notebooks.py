@@ -35,7 +35,7 @@ TEACHING, GLOSSARY = (
     NOTEBOOKS / "documents" / f"{name}.ipynb" for name in ("teaching", "glossary")
 )
 UNCOMPARED = {"nbval-ignore-output", "nbval-skip", "nbval-check-output", "raises-exception"}
-# A lab of the old shape has "Deeper" instead of "More"
+# labs with the old shape have "Deeper" instead of "More"
 PARTS = ("Your turn", "In short", "Next", "Deeper", "More")
 NEW_LABS = [
     lab for lab in LABS if not lab_sizes.old(json.loads(lab.read_text(encoding="utf-8"))["cells"])
@@ -281,7 +281,7 @@ def _sections(lab):
 
 
 def _run_first(sections, title):
-    """The titles of the sections that must run before the section `title`."""
+    """Return the titles of the sections that must run before the section `title`."""
     found = re.findall(r"\b[Rr]un sections? (\d+(?:(?:, | and )\d+)*) first", sections[title][0])
     first = {number for each in found for number in re.findall(r"\d+", each)}
     first |= {"Your turn"} if 'Run "Your turn" first' in sections[title][0] else set()

@@ -937,8 +937,8 @@ def test_plans_are_read_only_data():
         {"least": -1},
         {"least": [1, 2]},
         {"least": np.inf},
-        {"radius": 0.2},  # a plan by search has no radius
-        {"way": "via points"},  # but the plan has no radius
+        {"radius": 0.2},  # a plan found by a search must not have a radius
+        {"way": "via points"},  # a plan with via points must have a radius
         {"way": "via points", "radius": -0.2},
         {"way": "via points", "radius": np.inf},
         {"way": "via points", "radius": [0.1, 0.2]},

@@ -227,7 +227,7 @@ def test_plot_and_player_report_the_same_problems(motions):
     plot, player = plot_joints(recording), animate(recording)
     [notes] = [" ".join(x) for x in player.data["arms"][0]["notes"].values()]
     for word in ("speed limit", "limit"):
-        told = re.findall(rf"q(\d) is past its {word} in (\d+) of 2001", notes)
+        told = re.findall(rf"q(\d) exceeds its {word} in (\d+) of 2001", notes)
         said = re.search(rf"Joint \d past its {word} in \d+ of 2001 samples[^.]*", plot.alt)[0]
         assert told and len(told) == len(re.findall("oint", said))
         assert all(re.search(rf"oint {j}( past its {word})? in {n}\b", said) for j, n in told)
@@ -339,7 +339,7 @@ def test_teeth_of_a_sawtooth_count_as_jumps_in_position_and_not_as_speed():
     arm = animate(IRB140, t, q).data["arms"][0]
     assert [words for _, words in arm["leaps"]["0"]] == ["q1 jumps by 4.0°"] * 6
     [note] = arm["notes"]["0"]
-    assert note.startswith("Jumps of position: q1 jumps by 4.0° at 0.83 s; ")
+    assert note.startswith("Jumps in position: q1 jumps by 4.0° at 0.83 s; ")
     assert note.endswith("; and 3 more.") and not arm["jumps"]
     assert arm["speed"][0][0] == pytest.approx(0.2 / deg, abs=0.05)
     assert abs(arm["acceleration"][0][0]) < 0.1
@@ -364,9 +364,9 @@ def test_samples_that_exceed_a_limit_are_counted(motions):
     assert 0 < over < 2001
     [note] = animate(IRB140, T, q).data["arms"][0]["notes"]["0"]
     when = f"from {T[-over]:.2f} to 20.00 s"
-    assert note == f"q2 is past its limit in {over} of 2001 samples, {when}, by up to {most:.1f}°."
+    assert note == f"q2 exceeds its limit in {over} of 2001 samples, {when}, by up to {most:.1f}°."
     fast = animate(IRB140, T / 25, motions[1]).data["arms"][0]["notes"]["0"]
-    assert any("is past its speed limit" in note for note in fast)
+    assert any("exceeds its speed limit" in note for note in fast)
 
 
 @pytest.mark.parametrize(

@@ -34,7 +34,7 @@ def test_reused_names_are_detected(tmp_path):
     assert "NameError" in fault
 
 
-def test_a_loop_reads_no_variable_that_it_sets_first():
+def test_loop_does_not_read_a_variable_that_it_sets_first():
     cell = rerun.Cell("for a, b in pairs:\n    c = a + d\n    e(b, c)\nfor f in f:\n    g += f")
     assert cell.reads == {"pairs", "d", "e", "f", "g"}
     assert cell.writes == {"a", "b", "c", "f", "g"}

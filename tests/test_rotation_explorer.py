@@ -1,5 +1,5 @@
-"""The rotation explorer: a vector v, the product q v and the rotated vector q v q*, in a real
-browser, with numbers that SciPy and the formulas of this file compute a second time.
+"""The rotation explorer in a real browser: the vector v, the product q v and the rotated vector
+q v q* match SciPy and independent formulas.
 """
 
 import itertools
@@ -28,13 +28,17 @@ def about(axis, angle):
 
 
 def vector(data, tilt):
-    """v at these angles from the axis (k,): the axis, turned towards v about their normal."""
+    """Return the vectors v at these angles (k,) from the axis: the axis is rotated towards v about
+    their common normal.
+    """
     axis, across = np.array(data["axis"]), np.array(data["across"])
     return data["length"] * about(np.cross(axis, across), tilt).apply(axis)
 
 
 def one_side(axis, angle, v):
-    """The real part and the vector part of q v (k, 4), from v along the axis and across it."""
+    """Return the real part and the vector part of q v (k, 4), computed from the components of v
+    along the axis and perpendicular to it.
+    """
     along = v @ axis
     part = along[:, None] * axis
     across = about(axis, angle / 2).apply(v - part)
@@ -58,7 +62,7 @@ PRODUCTS = """([code, data, asked]) => {
     [(AXIS, V), ([0, 0, 1], [0, 0, 3.0]), (np.array([1, -2, 2]) / 3, [-0.05, 0.4, 0.3])],
     ids=["oblique", "v on the axis", "another"],
 )
-def test_thousand_products_are_those_of_scipy(browser, axis, v):
+def test_products_match_scipy(browser, axis, v):
     data, rng = explorer(axis=axis, v=v).data, np.random.default_rng(3)
     angle = np.append(rng.uniform(0, 4 * np.pi, 1000), [0, np.pi, 2 * np.pi, 4 * np.pi])
     tilt = np.append(rng.uniform(0, 2 * np.pi / 3, 1000), [0, np.pi / 2, 0, np.pi / 2])
@@ -76,7 +80,7 @@ def test_thousand_products_are_those_of_scipy(browser, axis, v):
     np.testing.assert_allclose(opening, v, rtol=0, atol=1e-9 * data["length"])
 
 
-def test_page_shows_the_same_numbers(opened):
+def test_page_shows_numbers_that_match_scipy(opened):
     shown = opened(explorer())
     for angle, tilt in ((70, None), (200, 30), (359, 90), (0, 75), (360, 60), (501, 119), (720, 0)):
         shown.type("θ", angle)
@@ -86,8 +90,8 @@ def test_page_shows_the_same_numbers(opened):
 
 
 def tells(shown, seen):
-    """The table, the real part, the sentence, the spoken name and the code agree with SciPy at the
-    angles of the sliders.
+    """Assert that the table, the real part, the sentence, the accessible name and the code agree
+    with SciPy at the angles of the sliders.
     """
     angle, tilt = (np.array([float(seen.told[name].rstrip(" °"))]) for name in "θφ")
     if tilt == 53.1:
@@ -119,10 +123,10 @@ def tells(shown, seen):
     return angle[0], tilt[0], rows
 
 
-# --- The hand -------------------------------------------------------------------------------------
+# --- Input ----------------------------------------------------------------------------------------
 
 
-def test_dragging_a_ring_round_the_axis_rotates_v(opened):
+def test_dragging_a_ring_around_the_axis_rotates_v(opened):
     shown = opened(explorer(250 * deg))
     opposite = np.array(shown.look().handles["angle"]["at"])
     shown.type("θ", 70)
@@ -133,11 +137,13 @@ def test_dragging_a_ring_round_the_axis_rotates_v(opened):
     ]
     seen = []
     shown.drag("angle", *stops, each=lambda now, _: seen.append(tells(shown, now)[0]))
-    assert (np.diff(seen) > 0).all() and seen[-1] > 300, "the angle follows the ring round the axis"
+    assert (np.diff(seen) > 0).all() and seen[-1] > 300, (
+        "the angle does not follow the ring around the axis"
+    )
     assert all(angle == round(angle) for angle in seen)
 
 
-def test_v_that_is_dragged_across_the_axis_leaves_no_real_part(opened):
+def test_real_part_is_zero_if_v_is_perpendicular_to_the_axis(opened):
     shown = opened(explorer())
     start = np.array(shown.look().handles["tilt"]["at"])
     seen = shown.drag("tilt", start + [-5, 40], start + [-25, 80], start + [-60, 130])
@@ -149,7 +155,7 @@ def test_v_that_is_dragged_across_the_axis_leaves_no_real_part(opened):
         assert tells(shown, seen)[2][2][0] == 0 and "the real part is 0 for every θ" in seen.says
 
 
-def test_keys_move_both_angles(opened):
+def test_keys_change_both_angles(opened):
     shown = opened(explorer())
     shown.press("angle", "ArrowRight", "ArrowUp", "Shift+ArrowLeft")
     shown.press("tilt", "Shift+ArrowRight", "ArrowDown")
@@ -179,7 +185,7 @@ def test_special_angles_are_explained(opened):
         assert words in seen.says, (angle, tilt)
 
 
-def test_view_is_named_fits_and_is_printed(opened, browser):
+def test_view_has_alt_text_and_fits_on_screen_and_paper(opened, browser):
     made = explorer()
     assert made.data["alt"] in made.html and made.still.alt == made.data["alt"] == repr(made)
     assert "real part −34.4, vector part (81.9, 45.9, 0.0) mm. q v q*: (57.9, 75.2, 31.6)" in repr(
@@ -199,10 +205,10 @@ def test_view_is_named_fits_and_is_printed(opened, browser):
         narrow.close()
 
 
-# --- Wrong calls ----------------------------------------------------------------------------------
+# --- Invalid calls --------------------------------------------------------------------------------
 
 
-def test_wrong_calls_say_what_is_wanted():
+def test_invalid_calls_are_refused():
     two = np.array([V, V])
     for given, words in (
         (dict(angle=-0.1), "angle: wanted 0 to 4 pi"),

@@ -181,7 +181,9 @@ def test_invalid_targets_are_refused():
 
 def test_explain_states_the_stroke_in_millimetres():
     assert "joint 4 is at 220.2 mm, 40.2 mm past its limit of 180 mm" in explain(SCARA, VIA, 0)
-    assert "100.0 mm beyond the stretched arm" in explain(SCARA, ScaraPose((0.55, 0, 0.1), 0.0), 0)
+    assert "100.0 mm beyond the reach of the arm" in explain(
+        SCARA, ScaraPose((0.55, 0, 0.1), 0.0), 0
+    )
     assert "40.0 mm too near to axis 1" in explain(SCARA, ScaraPose((0.01, 0, 0.1), 0.0), 1)
 
 

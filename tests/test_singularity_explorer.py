@@ -1,6 +1,4 @@
-"""The explorer of a line past a wrist singularity: its numbers are those of Python, and it says
-what holds in the singular pose.
-"""
+"""The singularity explorer: its numbers match Python, and it explains the singular pose."""
 
 import json
 from functools import cache
@@ -25,7 +23,7 @@ def view(**changes):
 
 
 def line(miss, places=PLACES):
-    """The poses of the line, lengths in mm."""
+    """Return the poses on the line; the arguments are in mm."""
     hit = ITMO6R.fk(HIT)
     shift = places[..., None] * ALONG + miss * BESIDE
     return Transform(hit.rotation, hit.translation + shift * mm)
@@ -33,8 +31,8 @@ def line(miss, places=PLACES):
 
 @cache
 def passing(miss):
-    """The motion along the line as the package strings it, and the speed of joint 4 in rad/s from
-    its Jacobian; NaN in the singular pose.
+    """Return the motion along the line, found with `ik` and `follow`, and the speed of joint 4 in
+    rad/s from the Jacobian, which is NaN in the singular pose.
     """
     row = ITMO6R.branch(+1, -1, +1)
     q = follow(ITMO6R, ITMO6R.ik(line(miss)), row)
@@ -48,8 +46,8 @@ def passing(miss):
 # --- The numbers ----------------------------------------------------------------------------------
 
 
-def test_page_follows_the_line_as_python_does(twin):
-    """All places of six lines, more than a thousand."""
+def test_motion_along_the_line_matches_python(twin):
+    """Compare all places of six lines, more than a thousand."""
     misses = (0, 1, 2, 7, 16, 50)
     asked = [[place, miss] for miss in misses for place in range(-100, 101)]
     found = twin.page.evaluate(
@@ -67,21 +65,22 @@ def test_page_follows_the_line_as_python_does(twin):
     assert len(wanted) > 1000 and free.sum() == 1
     test_twin.close(found[:, 6], wanted[:, 6], 1e-7)
     test_twin.close(found[~free], wanted[~free], 1e-7)
-    # where joints 4 and 6 are free, each side goes on from another sample before
+    # where joints 4 and 6 are free, page and package continue from different previous samples
     test_twin.close(found[free, :6], wanted[free, :6], 1e-4)
     assert abs(wanted[~free, 6]).max() == pytest.approx(100)
 
 
 @pytest.mark.parametrize("miss", [1, 2, 16, 50])
-def test_speed_is_the_change_of_joint_4_over_time(miss):
-    """The Jacobian is not used: joint 4 is compared at places 0.1 mm, or 1 ms, apart."""
+def test_speed_is_the_time_derivative_of_joint_4(miss):
+    """The derivative is computed from places 0.1 mm (1 ms) apart, without the Jacobian."""
     q, speed = passing(miss)
     change = np.gradient(q[:, 3], PLACES / 100)
     assert np.allclose(change[1:-1], speed[1:-1], rtol=0.01, atol=1e-3)
-    assert abs(speed).max() == pytest.approx(100 / miss, rel=0.003)  # the tool's speed over miss
+    # the greatest speed is the tool's speed divided by the miss
+    assert abs(speed).max() == pytest.approx(100 / miss, rel=0.003)
 
 
-def test_shown_numbers_are_those_of_python(opened):
+def test_shown_numbers_match_python(opened):
     shown = opened(view(), ITMO6R)
     q, speed = passing(2)
     shown.type("miss", 2)
@@ -100,15 +99,15 @@ def test_shown_numbers_are_those_of_python(opened):
 
 
 def numbers(shown):
-    """The speed in turns/s and in degrees per second."""
+    """Return the speed in turns/s and in degrees per second."""
     words = shown.rk.locator(".rk-speed b, .rk-speed b + span").all_inner_texts()
     return float(words[0].removesuffix(" turns/s")), float(words[1].strip("= °/s"))
 
 
-# --- The hand -------------------------------------------------------------------------------------
+# --- Input ----------------------------------------------------------------------------------------
 
 
-def test_tool_is_dragged_along_the_line_and_follows_the_pointer(opened):
+def test_dragged_tool_follows_the_pointer_along_the_line(opened):
     shown = opened(view(), ITMO6R)
     shown.type("miss", 10)
     camera = shown.take("tool")
@@ -126,7 +125,7 @@ def test_tool_is_dragged_along_the_line_and_follows_the_pointer(opened):
     )
     shown.page.mouse.move(*camera)
     shown.drag("tool", (camera[0] - 300, camera[1] + 300))
-    assert shown.look().boxes["place"] == -100, "the tool leaves the line"
+    assert shown.look().boxes["place"] == -100, "the tool left the line"
 
 
 def test_keys_move_the_tool_by_1_and_10_mm(opened):
@@ -159,12 +158,14 @@ def test_a_finger_drags_the_tool(browser, opened):
     after = shown.look()
     assert after.boxes["place"] > -70 and shown.page.evaluate("scrollY") == 0
     scene, number = (shown.rk.locator(x).bounding_box() for x in (".rk-scene", ".rk-speed b"))
-    assert number["y"] + number["height"] - scene["y"] < 400, "not on one screen with the tool"
+    assert number["y"] + number["height"] - scene["y"] < 400, (
+        "the number and the tool do not fit on one screen"
+    )
     phone.close()
 
 
 @pytest.mark.parametrize("theme", ["light", "dark"])
-def test_nothing_hinders_a_screen_reader_or_weak_eyes(opened, theme):
+def test_view_has_no_accessibility_violations(opened, theme):
     shown = opened(view(), ITMO6R)
     shown.page.emulate_media(color_scheme=theme)
     for place in (-100, 0):
@@ -194,7 +195,7 @@ def test_joint_4_is_free_in_the_singular_pose(opened):
 
 
 def test_joint_4_hardly_turns_on_the_line_through_the_singular_pose():
-    """Joint 6 can take back what joint 4 turns: the pose is the same whatever joint 4 does."""
+    """Joint 6 can undo the rotation of joint 4, so the pose does not determine joint 4."""
     _, speed = passing(0)
     assert 0.05 < np.nanmax(abs(speed)) < 5 * deg and np.isnan(speed).sum() == 1
     q = HIT + np.linspace(-3, 3, 7)[:, None] * np.array([0, 0, 0, 1, 0, -1])
@@ -204,7 +205,7 @@ def test_joint_4_hardly_turns_on_the_line_through_the_singular_pose():
 # --- Arguments ------------------------------------------------------------------------------------
 
 
-def test_slider_has_only_the_misses_asked_for(opened):
+def test_slider_offers_only_the_requested_misses(opened):
     shown = opened(view(most=2 * mm, step=2 * mm), ITMO6R)
     for typed, taken in ((2, 2), (0.9, 0), (1.1, 2), (40, 2), (-3, 0)):
         shown.type("miss", typed)
@@ -223,10 +224,10 @@ def test_slider_has_only_the_misses_asked_for(opened):
         (dict(most=2 * mm, step=3 * mm), ValueError, "got 2 mm in steps of 3 mm"),
         (dict(most=0.5 * mm, step=0.5 * mm), ValueError, "steps of whole millimetres"),
         (dict(most=201 * mm), ValueError, "wanted 1 to 200 steps"),
-        (dict(most=150 * mm), ValueError, "got none at .* with a miss of"),
+        (dict(most=150 * mm), ValueError, "got no posture at .* with a miss of"),
     ],
 )
-def test_line_that_is_not_past_one_wrist_singularity_is_refused(changes, error, words):
+def test_invalid_lines_are_refused(changes, error, words):
     given = dict(arm=ITMO6R, q=HIT, way=(0, 1, 1)) | changes
     with pytest.raises(error, match=words):
         singularity_explorer(**given)

@@ -262,7 +262,7 @@ def test_a_line_that_leaves_the_workspace_is_refused():
         straight(ARM, (1.2, 0, 0.1), (-1.2, 0.1, 0.1), PER_DEGREE)
     with pytest.raises(ValueError, match=r"100% of its length the point is under the floor"):
         straight(ARM, (1.2, 0, 0.5), (1.2, 0.1, -0.1), PER_DEGREE)
-    with pytest.raises(ValueError, match=r"beyond the stretched arm"):
+    with pytest.raises(ValueError, match=r"beyond the reach of the arm"):
         straight(ARM, (1.2, 0, 0.5), (3, 0.1, 0.5), PER_DEGREE)
     with pytest.raises(ValueError, match=r" 0% of its length the point is under the floor"):
         straight(ARM, (1.2, 0, -1e-6), (1.2, 0.1, 0.5), PER_DEGREE)

@@ -348,12 +348,12 @@ def test_the_first_view_shows_how_near_the_path_can_pass():
     assert tops[0] > most > tops[1]
     away = np.linalg.norm(path.translation - stations[1].translation, axis=-1).min() / mm
     assert away == pytest.approx(near, abs=0.05)
-    g, _ = run("03", "setup")  # the sections have the same three poses
+    g, _ = run("03", "setup")  # all sections use the same three poses
     for name, pose in zip(("start", "via", "goal"), stations, strict=True):
         assert np.allclose(g[name].as_matrix(), pose.as_matrix(), rtol=0, atol=1e-12)
 
 
-def test_ptp_wins_every_race_and_has_the_longer_way():
+def test_ptp_wins_every_race_although_its_path_is_longer():
     """The joint speeds on the line come from the Jacobian, those of PTP from the joint values at
     both ends of the line.
     """
@@ -480,7 +480,7 @@ def _passing():
 
 def _fastest(g, miss):
     """The greatest speed of joint 4 in °/s at 100 mm/s, scanned in steps of 1 micrometre and
-    calculated from differences over 0.2 micrometres.
+    calculated from finite differences over 0.2 micrometres.
     """
     places = np.arange(-1000, 1001) * 1e-6
 
@@ -515,7 +515,7 @@ def test_table_figure_view_and_prediction_agree_on_the_speed_of_joint_4():
     assert titles == [f"{m} mm beside: joint 4 up to {exact[m]:.0f}°/s" for m in (2, 1)]
 
 
-def test_speed_of_joint_4_is_the_speed_of_the_tool_over_the_miss():
+def test_speed_of_joint_4_is_the_tool_speed_divided_by_the_miss():
     g, table = _passing()
     for miss in (1, 2, 5, 10, 20):
         assert table[miss] * deg == pytest.approx(100 / miss, rel=1e-3)
@@ -526,8 +526,8 @@ def test_speed_of_joint_4_is_the_speed_of_the_tool_over_the_miss():
     assert number(r"or (\S+) rad/s", answer) == 100 / miss
 
 
-def test_first_view_and_its_text_leave_the_answer_to_the_guess():
-    """Prediction 8 asks for a miss of 1 mm; the view above it has 0 and 2 mm only."""
+def test_first_view_and_its_text_do_not_reveal_the_answer():
+    """Prediction 8 asks for a miss of 1 mm, whereas the view above it offers only 0 and 2 mm."""
     cells = list(sources("06"))
     assert cells.index("predict-8") < cells.index("pull") < cells.index("passing-code")
     numbers = {}
@@ -545,8 +545,10 @@ def test_first_view_and_its_text_leave_the_answer_to_the_guess():
     assert speed not in before and f"{float(speed) / 360:.1f} turns" not in before
 
 
-def test_stated_least_speed_of_the_tool_per_joint_speed_holds():
-    """Against every direction of a tool that does not rotate, in the postures of the cell."""
+def test_stated_minimum_ratio_of_tool_speed_to_joint_speed_holds():
+    """Compare the statement with 20 000 directions of a tool that does not rotate, in the postures
+    of the cell.
+    """
     g, said = run("06", "setup", "table-code", "near-code")
     assert "moves by at least so many mm/s for each °/s of any joint" in sources("06")["near"]
     told = {

@@ -142,8 +142,8 @@ def test_speeds_grow_by_the_stated_factors_ten_times_closer_to_a_singularity():
 
 
 def inside(place):
-    """For poses with a level tool at places (..., 3) in mm: which joints (..., 8, 6) of which rows
-    are inside their limits, after some whole turns; and which poses are in reach.
+    """For poses with a horizontal tool at places (..., 3) in mm, return which joints (..., 8, 6)
+    are inside their limits after some whole turns, and which poses are in reach.
     """
     level = Quaternion.from_angle_axis(90 * deg, [0, 1, 0])
     rows = PUMA560.ik(Transform(level, np.array(place) * mm))
@@ -153,7 +153,7 @@ def inside(place):
     return fits, np.isfinite(rows).all(axis=(-2, -1))
 
 
-def test_rows_are_usable_where_the_first_view_and_its_answers_say():
+def test_rows_are_usable_where_the_text_of_the_first_view_says():
     one, other = said("07", "title", r"in (\w+) ways, but only (\w+) are inside")
     (straight,) = said("07", "count", r"Straight ahead, (\w+) rows are usable")
     assert re.search(r"y_target = (\S+)", cells("07")["eight-words"])[1] == "0"

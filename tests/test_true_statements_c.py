@@ -233,7 +233,7 @@ def test_hole_notch_and_areas_of_the_zone_are_as_stated():
     assert either / one == pytest.approx(1.25, abs=0.01) and 2 * one - either > either / 2
 
 
-def test_joint_3_ends_where_stated_after_a_turn_to_either_side():
+def test_joint_3_ends_where_stated_after_a_turn_in_either_direction():
     start, left, right, over = numbers(
         r"starts at (\S+)°, so it ends at (\S+)° or at (\S+)°, and that is (\S+)° past",
         flat("04", "follow-answer"),

@@ -126,7 +126,7 @@ def test_statements_on_scalar_parts_speed_jumps_and_parallel_axes_are_true():
 
 
 def hamilton(a, b):
-    """The product of two quaternions, from Hamilton's table of i, j and k."""
+    """Return the product of two quaternions, computed with Hamilton's table of i, j and k."""
     table = [
         [(0, 1), (1, 1), (2, 1), (3, 1)],
         [(1, 1), (0, -1), (3, 1), (2, -1)],
@@ -140,7 +140,7 @@ def hamilton(a, b):
     return found
 
 
-def test_each_step_to_rodrigues_formula_is_true():
+def test_each_step_of_the_derivation_of_rodrigues_formula_is_true():
     words = flat("01", "turning-why")
     rng = np.random.default_rng(6)
     assert r"$q\,v_\perp = c\,v_\perp + s\,n \times v_\perp$: no real part" in words
@@ -385,7 +385,7 @@ def test_the_blocks_of_the_jacobian_have_the_stated_determinants():
     for q in np.random.default_rng(7).uniform(*PUMA560.limits.T, size=(50, 6)):
         J, corners = PUMA560.jacobian(q), PUMA560.frames(q).translation
         shoulder, elbow, wrist = corners[[1, 2, 4]]
-        normal = np.array([np.sin(q[0]), -np.cos(q[0]), 0])  # of the arm's plane
+        normal = np.array([np.sin(q[0]), -np.cos(q[0]), 0])  # the normal of the arm's plane
         lifted = wrist - 0.15005 * normal
         area = np.linalg.norm(np.cross(elbow - shoulder, lifted - elbow))
         r = (lifted - shoulder) @ [np.cos(q[0]), np.sin(q[0]), 0]
@@ -442,7 +442,7 @@ def test_arm_is_stretched_and_forearm_points_up_where_stated():
         assert fore[2] / np.linalg.norm(fore) == pytest.approx(up, abs=1e-9)
 
 
-def test_rows_0_and_2_of_the_first_view_share_joint_1_alone():
+def test_rows_0_and_2_of_the_first_view_share_only_joint_1():
     text = flat("07", "eight")
     assert "same value in rows 0 and 2?" in text and "Joint 1. The elbow moves" in text
     level = Quaternion.from_angle_axis(90 * deg, [0, 1, 0])
@@ -451,7 +451,7 @@ def test_rows_0_and_2_of_the_first_view_share_joint_1_alone():
     assert (np.flatnonzero(off < 1e-9) + 1).tolist() == [1] and (off[1:] > 0.05).all()
 
 
-def test_the_name_of_a_posture_fits_what_can_be_measured():
+def test_name_of_a_posture_matches_measured_positions():
     question, options, right = asked("puma560_branches.p9")
     q = np.array(numbers(r"\((\S+), (\S+), (\S+), (\S+), (\S+), (\S+)\), in deg", question)) * deg
     places = PUMA560.frames(q).translation

@@ -140,8 +140,8 @@ def test_skew_axes_with_known_directions_determine_the_dh_parameters():
 # --- Lab 03 ---------------------------------------------------------------------------------------
 
 
-def test_line_with_a_free_pace_gains_most_of_its_loss_and_never_beats_ptp():
-    """Joint 1 comes from the place of the wrist centre, the other joints from `ik`."""
+def test_line_at_variable_speed_saves_most_of_the_lost_time_but_never_beats_ptp():
+    """Joint 1 is computed from the position of the wrist centre, the other joints with `ik`."""
     reason = one_line(option("irb140_motion.p2", "between").reason)
     (best,) = numbers(r"It takes (\S+) s\.", reason)
     (low,) = numbers(r"at the start joint 1 went at (\d+) % of its limit", reason)

@@ -1,4 +1,4 @@
-"""Statements of lab 09 about what its views show, recomputed with circles."""
+"""Statements of lab 09 about its views, checked by intersecting circles."""
 
 import math
 
@@ -16,7 +16,7 @@ STAND, SQUARE = np.array([60, 120, 120]) * deg, np.array([90, 90, 90]) * deg
 
 
 def ends(K):
-    """The range of alpha at K, as far as gamma stays below 180 degrees."""
+    """Return the range of alpha at K for which gamma stays below 180 degrees."""
     alphas = np.linspace(math.acos((5 - abs(K) ** 2) / 4), math.pi, 4001)
     kept = [alpha for alpha in alphas if family(K, alpha)[0] <= math.pi + 1e-9]
     return kept[0], kept[-1]
@@ -26,7 +26,7 @@ def in_circles(K, alphas):
     return np.array([family(K, alpha) for alpha in alphas])
 
 
-def test_ring_1_keeps_the_distance_and_the_others_do_not():
+def test_only_ring_1_keeps_the_distance_of_the_gripper_from_the_base():
     assert "Ring 1: it turns the whole arm about O." in flat("09", "chain-look")
     q = np.array([100, 110, 120]) * deg
     far = [abs(gripper(q + 0.1 * np.eye(3)[k])) - abs(gripper(q)) for k in range(3)]
@@ -41,7 +41,7 @@ def test_two_levers_are_in_line_at_both_ends_of_the_range():
     assert high == math.pi and family(K, low)[1] == pytest.approx(math.pi, abs=1e-6)
 
 
-def test_s_is_least_where_the_fourth_section_says():
+def test_s_is_least_where_section_4_says():
     words = flat("09", "least-sweep")
     far, behind = complex(2.8, 0.4), SECOND
     assert "Far out, at (2.8, 0.4) m, S is lowest where it is level." in words
@@ -49,7 +49,7 @@ def test_s_is_least_where_the_fourth_section_says():
     for K in (far, behind):
         low, high = ends(K)
         S, q = least_from(K, SQUARE)
-        assert abs(q - SQUARE).min() > 1 * deg, "an angle keeps its value"
+        assert abs(q - SQUARE).min() > 1 * deg, "an angle has its previous value"
         from_end = min(q[2] - low, high - q[2])
         assert (from_end > 5 * deg) if K is far else (from_end < 1e-3)
         if K is far:
@@ -72,7 +72,7 @@ def test_only_one_sum_of_the_angles_has_a_minimum_inside_the_range():
     assert seen == {(-1, 1, 1)}, "in the order gamma, beta, alpha"
 
 
-def test_times_of_the_shortest_and_of_the_least_move_are_as_stated():
+def test_times_of_the_fastest_and_of_the_least_movement_are_as_stated():
     alpha, longest, time, least, later = numbers(
         r"cross at \$\\alpha = (\S+)°\$\. The longest turn is (\S+)° there, which takes (\S+) s\. "
         r"With the least S it is (\S+)°, which takes (\S+) s\.",
@@ -88,7 +88,7 @@ def test_times_of_the_shortest_and_of_the_least_move_are_as_stated():
     assert [change[best].max() / 30, turned / 30] == pytest.approx([time, later], abs=0.005)
 
 
-def test_best_first_posture_costs_what_the_sixth_section_says():
+def test_best_first_posture_costs_what_section_6_says():
     words = flat("09", "greed-hand")
     (greedy,) = numbers(r"the greedy arm turns by (\S+)° in all", words)
     kink, now, then, total, less, more = numbers(
@@ -124,7 +124,7 @@ def test_both_arms_of_the_player_differ_for_the_stated_targets():
     assert "quantities=" in cells("09")["greed-player"]
 
 
-def test_weights_let_gamma_turn_less_by_the_stated_amount():
+def test_weights_reduce_the_change_of_gamma_by_the_stated_amount():
     after, before = numbers(
         r"turns by (\S+)° instead of (\S+)°\.", flat("09", "deeper-more").replace("$", "")
     )
@@ -136,7 +136,7 @@ def test_weights_let_gamma_turn_less_by_the_stated_amount():
     assert turns == pytest.approx([after, before], abs=0.05)
 
 
-def test_rounds_repeat_themselves_or_drift_as_stated():
+def test_rounds_repeat_or_drift_as_stated():
     words = flat("09", "deeper-more")
     assert "20 random lists: 19 repeated themselves from the seventh round or earlier, and" in words
     assert "one was still drifting after fourteen rounds." in words
@@ -151,6 +151,8 @@ def test_rounds_repeat_themselves_or_drift_as_stated():
             rounds.append([q := ARM.least(K, q)[0] for K in places])
         change = abs(np.diff(rounds, axis=0)).max(axis=(1, 2)) / deg
         moving = change > 1e-6
-        assert (moving[1:] <= moving[:-1]).all(), "it moves again after a round without a change"
+        assert (moving[1:] <= moving[:-1]).all(), (
+            "the arm changes again after a round without a change"
+        )
         settled.append(1 + int(moving.sum()))
     assert sorted(settled)[-2:] == [7, 14]

@@ -350,7 +350,7 @@ def test_page_computes_the_same_rows(twin, name):
 
 @pytest.mark.parametrize("name", ["IRB140", "PUMA560"])
 def test_page_finds_the_same_usable_rows(twin, name):
-    """1000 targets; in Python, every whole turn of a joint is compared with its limits."""
+    """Compare 1000 targets. In Python, every whole turn of a joint is compared with its limits."""
     arm, rng = ARMS[name], np.random.default_rng(31)
     pose = Transform(rotations(rng, 1000), rng.uniform(-0.8, 0.8, (1000, 3)) + [0, 0, 0.6])
     got = twin(
@@ -712,7 +712,7 @@ def test_page_refines_the_same_maxima(twin):
         ]
         value, at = np.transpose(want)
         close(got[:, 0], value, 1e-15)
-        # rounding may decide which of two equal samples beside the top of a sine counts
+        # rounding errors may decide which of two equal samples next to the maximum counts
         close(got[:, 1], at, 10.0 ** -(decimals + 1))
     for nothing in ("() => NaN", "x => 1 / Math.abs(x - Math.SQRT1_2)"):
         got = twin(f"return Object.values(refinedMaximum({nothing}, 0, 1, 2));", None, [0], shape=2)

@@ -65,7 +65,8 @@ def test_ik_contains_the_original_joint_values(l1, l2, base, shape):
     np.testing.assert_array_equal(arm.ik(pose.translation), rows)
     np.testing.assert_array_equal(arm.ik(pose.translation[..., :2]), rows)
     assert within(arm, rows).all()
-    # the elbow is at the distances l1 from the base and l2 from the tip, and never changes sides
+    # The elbow is l1 away from the base and l2 away from the tip. In each row, it stays on one side
+    # of the line from the base to the tip.
     elbow, tip = elbows(arm, rows), pose.translation[..., None, :2]
     assert np.linalg.norm(elbow - base, axis=-1) == pytest.approx(l1)
     assert np.linalg.norm(elbow - tip, axis=-1) == pytest.approx(l2)
@@ -117,7 +118,7 @@ def test_stretched_and_folded_arms_are_reachable_and_points_beyond_are_not(l1, l
 
 def test_explain_states_each_reason():
     arm = two_link(1, 1.5)
-    assert "does not exist: the target is 500.0 mm beyond the stretched arm" in explain(
+    assert "does not exist: the target is 500.0 mm beyond the reach of the arm" in explain(
         arm, (3, 0), 0
     )
     assert "400.0 mm too near to the base" in explain(arm, (0.1, 0), 1)

@@ -131,7 +131,7 @@ def test_notes_do_not_move_the_pictures(page, tmp_path):
     q = np.stack([HALVES, TURNING])  # the first motion exceeds a limit
     opened(page, animate(IRB140, CLOCK, q, slider=("x", [0, 1])), tmp_path)
     before = page.locator(".rk-scene").bounding_box()
-    assert "q3 is past its limit" in page.locator(".rk-says").inner_text()
+    assert "q3 exceeds its limit" in page.locator(".rk-says").inner_text()
     page.get_by_label("x", exact=True).fill("1")
     assert page.locator(".rk-says").inner_text() == ""
     assert page.locator(".rk-scene").bounding_box() == before

@@ -1,5 +1,5 @@
-"""The zone of a SCARA: its sides and areas against the inverse kinematics, and the explorer that
-shows it from above.
+"""The zone of a SCARA: its sides and areas agree with the inverse kinematics, and an explorer shows
+it from above.
 """
 
 import numpy as np
@@ -16,7 +16,7 @@ context, opened, twin = test_explorers.context, test_explorers.opened, test_twin
 
 
 def scara(upper, fore, first, second):
-    """A SCARA whose joints 1 and 2 have these limits in degrees."""
+    """Return a SCARA whose joints 1 and 2 have these limits in degrees."""
     limits = np.array([first, second, (-400, 400), (0, 10)]) * deg
     return scara_arm("other", 0.3, upper, fore, limits)
 
@@ -38,7 +38,7 @@ def outlines(zone):
 
 
 def to_line(points, line):
-    """The distance of points (n, 2) from a polyline (k, 2)."""
+    """Return the distances of points (n, 2) from a polyline (k, 2)."""
     start, way = line[:-1], np.diff(line, axis=0)
     length = np.maximum((way**2).sum(axis=-1), 1e-30)
     share = (((points[:, None] - start) * way).sum(axis=-1) / length).clip(0, 1)
@@ -46,7 +46,7 @@ def to_line(points, line):
 
 
 @every_arm
-def test_areas_are_where_a_row_of_ik_is_inside_the_limits(name):
+def test_areas_contain_the_places_with_a_row_of_ik_inside_the_limits(name):
     arm, rng = ARMS[name], np.random.default_rng(4)
     places = rng.uniform(-1.1, 1.1, (1500, 2)) * arm.reach
     rows = arm.ik(ScaraPose(np.column_stack([places, np.full(1500, 0.25)])))
@@ -61,8 +61,8 @@ def test_areas_are_where_a_row_of_ik_is_inside_the_limits(name):
 
 
 @every_arm
-def test_sides_are_where_the_named_joint_is_at_its_limit(name):
-    """The reference is the law of cosines."""
+def test_named_joint_is_at_its_limit_on_every_side(name):
+    """The reference values come from the law of cosines."""
     arm, named = ARMS[name], set()
     l1, l2 = arm.geometry.upper, arm.geometry.fore
     for around in Zone(arm).sides:
@@ -87,7 +87,7 @@ def test_sides_are_where_the_named_joint_is_at_its_limit(name):
     assert 1 in named or name == "folds"
 
 
-def test_labels_name_the_limits_at_their_places():
+def test_labels_state_the_limits_at_the_right_places():
     labels = dict(Zone(SCARA).labels)
     assert list(labels) == ["q1 = 140°", "q2 = 150°", "q1 = −140°", "q2 = −150°"]
     for text, at in labels.items():
@@ -96,7 +96,7 @@ def test_labels_name_the_limits_at_their_places():
         assert abs(rows[:, joint] / deg - value).min() < 1e-6
 
 
-def test_zone_is_only_for_a_scara():
+def test_zone_of_another_arm_is_refused():
     for call, words in (
         (lambda: Zone(IRB140), "arm: wanted a SCARA, got IRB-140"),
         (lambda: Zone(Arm("links", SCARA.links, SCARA.limits)), "arm: wanted a ClosedFormArm"),
@@ -131,7 +131,7 @@ def test_page_finds_the_nearest_limit_of_joints_1_and_2(twin):
 
 
 def told(arm, seen):
-    """What the explorer should say about the joints 1 and 2 at the target in its boxes."""
+    """Check what the explorer says about joints 1 and 2 at the target in its input fields."""
     x, y, z = (seen.boxes[name] * mm for name in "xyz")
     rows = arm.ik(ScaraPose([x, y, z], seen.boxes["angle"] * deg))
     usable, text = within(arm, rows).all(axis=-1), seen.says
@@ -146,7 +146,7 @@ def told(arm, seen):
     return margins.min()
 
 
-def test_hand_finds_the_hole_and_the_stops_from_above(opened):
+def test_dragging_the_target_finds_the_hole_and_the_joint_stops(opened):
     shown = opened(target_explorer(SCARA, zone=True), SCARA)
     first = shown.look()
     assert told(SCARA, first) > 30 and first.says in shown.data["summary"]
@@ -156,7 +156,7 @@ def test_hand_finds_the_hole_and_the_stops_from_above(opened):
     start = np.array(first.handles["free"]["at"])
     ahead = shown.drag("free", start - [60, 0])  # towards the column
     moved = first.boxes["x"] - ahead.boxes["x"]
-    assert moved > 20 and abs(ahead.boxes["y"]) < 0.5, "a pixel to the side is x alone"
+    assert moved > 20 and abs(ahead.boxes["y"]) < 0.5, "the drag also changed y"
     into = start - [60 * 150 / moved, 0]  # x is 100 mm
     hole = shown.drag("free", into)
     assert told(SCARA, hole) is None and "q2 past its limit" in hole.words[0]

@@ -137,7 +137,7 @@ def explain(arm: ClosedFormArm, pose: Any, row: int) -> str:
 
     >>> from robokin import SCARA, ScaraPose, explain
     >>> explain(SCARA, ScaraPose((0.46, 0, 0.1), 0), 0)
-    'Row 0 (+1) does not exist: the target is 10.0 mm beyond the stretched arm.'
+    'Row 0 (+1) does not exist: the target is 10.0 mm beyond the reach of the arm.'
     """
     rows = instance(arm, ClosedFormArm, "arm").ik(pose)
     if rows.ndim != 2:

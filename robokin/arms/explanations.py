@@ -13,7 +13,7 @@ SENTENCES = {
     "not usable": "Row {row} ({flags}) is not usable: {facts}.",
     "millimetres": "; lengths are in metres: did you mean millimetres (350 * mm)?",
     # why a row does not exist
-    "stretched": "{what} is {gap} beyond the stretched arm",
+    "stretched": "{what} is {gap} beyond the reach of the arm",
     "folded": "{what} is {gap} too near to joint 2",
     "axis": "{what} is {gap} too near to axis 1",
     "base": "{what} is {gap} too near to the base",

@@ -96,8 +96,8 @@ class Lab:
 
     @cached_property
     def moved(self) -> Mapping[str, str]:
-        """The ids of the predictions that another lab asked first, by number: their headings have
-        the whole id.
+        """The full ids of the predictions that have moved here from another lab, by number. The
+        heading of such a prediction contains its full id.
         """
         with contextlib.suppress(BadFile):  # `predictions` notes that there is no such file
             text = markdown.read(self.folder / "predictions.md")
@@ -154,10 +154,10 @@ class Lab:
 
 def made(text: markdown.Text, code: Mapping[str, Any]) -> Exercise:
     """Make an exercise. Its files determine its kind: the student writes a test if the text has a
-    section "Right programs", gives a value if the code defines `faults`, and otherwise writes a
+    section "Correct programs", gives a value if the code defines `faults`, and otherwise writes a
     function. Raises ValueError if the files do not define an exercise.
     """
-    if "Right programs" in text.parts:
+    if "Correct programs" in text.parts:
         return Catch(text, code)
     return Value(text, code) if "faults" in code else Function(text, code)
 
@@ -222,8 +222,8 @@ def lab(name: Any) -> Lab:
     known = labs()
     if not known:
         raise ValueError(
-            f"lab: no labs found. Install robokin from its clone, or set {ELSEWHERE} to the "
-            "notebooks/exercises folder of a clone"
+            "lab: no labs found. Install robokin from a clone of its repository, or set "
+            f"{ELSEWHERE} to the notebooks/exercises folder of a clone"
         )
     if not isinstance(name, str) or name not in known:
         raise ValueError(f"lab: wanted one of {', '.join(known)}, got {name!r}")
@@ -236,23 +236,23 @@ def titled(name: str) -> str:
 
 
 def ids(slug: str, what: str) -> list[str]:
-    """The ids of the exercises or predictions of a lab, in its order. `what` is "exercises" or
-    "predictions". Raises ValueError if there is no such lab.
+    """Return the ids of the exercises or predictions of a lab, in the order of the lab. `what` is
+    "exercises" or "predictions". Raises ValueError if there is no such lab.
     """
     made = lab(slug)
     return [made.moved.get(number, f"{slug}.{number}") for number in getattr(made, what)]
 
 
 def home(name: str) -> str:
-    """The lab that asks the prediction with this id, or sets the exercise: the one in the id,
-    unless the prediction has moved. Does not check whether there is such a lab.
+    """Return the lab to which the exercise or prediction with this id belongs. It is the lab named
+    in the id, unless the prediction has moved. Does not check whether this lab exists.
     """
     asking = (slug for slug, made in labs().items() if name in made.moved.values())
     return next(asking, name.partition(".")[0])
 
 
 def lab_of(names: Iterable[str]) -> str | None:
-    """The lab to which most of these ids belong, or None if they belong to no lab."""
+    """Return the lab to which most of these ids belong, or None if they belong to no lab."""
     found = Counter(slug for slug in map(home, names) if slug in labs())
     return found.most_common(1)[0][0] if found else None
 

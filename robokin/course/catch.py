@@ -44,9 +44,9 @@ class Catch(Exercise):
     def __init__(self, text: Text, code: Mapping[str, Any]) -> None:
         super().__init__(text)
         self.code = dict(code)
-        line, first = text.code("Right programs")
+        line, first = text.code("Correct programs")
         self.function = edits.function_name(text.file, line, first)
-        right = edits.own(text.file, self.function, [first], text.wrong("Right programs"))
+        right = edits.own(text.file, self.function, [first], text.wrong("Correct programs"))
         if not right:
             raise BadFile(text.file, line - 1, "wanted '**what is special.**' above the program")
         self.rights = [(" ".join(filter(None, each[:2])), each.text(first)) for each, _ in right]

@@ -93,8 +93,8 @@ def keep(path: Path, made: Iterable[tuple[str, str, str]]) -> None:
 
 def parse_line(text: str) -> dict[str, str]:
     """Parse the line copied from a page: "p1 b, p3 a, p5 -290" gives {"p1": "b", ...}, in order. A
-    prediction from another lab has its whole id. Raises ValueError if the format is wrong, and
-    TypeError if it is not text.
+    prediction from another lab is written with its full id. Raises ValueError if the format is
+    wrong, and TypeError if the argument is not a string.
     """
     if not isinstance(text, str):
         raise TypeError(f"guesses: wanted the line copied from a page, got {short(text)}")
@@ -134,8 +134,8 @@ class Guess:
 def guesses(handed: "HandedIn", remarks: list[str] | None = None) -> tuple[Guess, ...]:
     """Return the results of the predictions of the notebook's lab without running any code.
     Guesses saved by a kernel come first, then those in the line copied from a page, then the
-    choice in the cell. An older notebook may ask predictions that have moved to another lab: those
-    that have a guess come last. Unusable guesses are reported in `remarks`.
+    choice in the cell. If an older notebook asks predictions that have since moved to another
+    lab, those with a guess come last. Unusable guesses are reported in `remarks`.
     """
     kept: Kept = {}
     pasted: dict[str, str] = {}
@@ -288,8 +288,9 @@ def _known(name: str) -> bool:
 
 
 def _name(notebooks: dict[str, Kept], path: Path) -> str:
-    """The key of a notebook's guesses: its own name or, if it was renamed, its previous name. It
-    counts as renamed if exactly one notebook of its lab with its predictions no longer exists.
+    """Return the name under which the guesses of a notebook are stored: its own name or, if it was
+    renamed, its previous name. The notebook counts as renamed if exactly one name with guesses
+    belongs to the same lab, shares a prediction with the notebook, and is no longer a file.
     """
     if path.name in notebooks:
         return path.name

@@ -115,8 +115,8 @@ def prediction(
     file: str, line: int, heading: str, text: str, code: Mapping[str, Any]
 ) -> tuple[str, Prediction]:
     """Parse a prediction from its number, its section and the names of its Python file: for p1,
-    `p1()` returns its facts, with the name of the right answer as "right". A prediction that has
-    moved here from another lab has its whole id in the heading. Raises BadFile if something is
+    `p1()` returns its facts and, under "right", the name of the right answer. A prediction that has
+    moved here from another lab has its full id in the heading. Raises BadFile if something is
     missing.
 
     ## p5, a number in mm/s, within 2 %

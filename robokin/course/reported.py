@@ -124,8 +124,9 @@ def _known(
     what: str,
     checked: Callable[[dict[str, Any]], dict[str, Any]],
 ) -> list[dict[str, Any]]:
-    """The entries for the lab's exercises or predictions, in the order of the lab. An older report
-    may contain predictions that have moved to another lab: those that were made come last.
+    """Return the entries for the lab's exercises or predictions, in the order of the lab. If an
+    older report contains predictions that have since moved to another lab, those with a guess come
+    last.
     """
     known = ids(slug, what) if slug else []
     found: dict[str, dict[str, Any]] = {}
@@ -142,7 +143,7 @@ def _known(
 
 
 def _belongs(name: str, slug: str | None, what: str) -> bool:
-    """Whether an exercise or a prediction belongs to a lab, or did before it moved."""
+    """Return whether an exercise or a prediction belongs to a lab, or did before it moved."""
     own, from_here = home(name), name.startswith(f"{slug}.")
     return own in labs() and (own == slug or from_here) and name in ids(own, what)
 

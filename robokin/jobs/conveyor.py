@@ -28,25 +28,26 @@ MOST = 1_000  # maximum number of objects on the belt
 PLACES = 500  # maximum number of places in a window
 ARMS = 100
 
-# The line of lab 14: an arm of the document, its bin and its window, in its own coordinates. The
-# numbers are our choice.
+# The conveyor of lab 14: an arm from the document, with its bin and its window in the coordinates
+# of the arm. We chose these numbers; they are not from the document.
 LINKS = 500 * mm, 400 * mm
-SPEED = 2.0  # of each joint, rad/s
+SPEED = 2.0  # rad/s: the speed limit of each joint
 BIN: Floats = frozen(np.array([150, -450, 250]) * mm)
-ALONG: Floats = frozen(np.linspace(-400, 400, 161) * mm)  # the window, along y
+ALONG: Floats = frozen(np.linspace(-400, 400, 161) * mm)  # positions along the window
 WINDOW: Floats = frozen(np.stack([0 * ALONG + 600 * mm, ALONG, 0 * ALONG + 50 * mm], axis=-1))
 GAP = 150 * mm  # the mean gap between two objects
 
 
 def ways_from(bin_place: ArrayLike = BIN) -> Floats:
-    """The times of one way from a bin (3,) to each place of `WINDOW`, (161,) in s, for an arm with
-    `LINKS` whose joints reach `SPEED`. Its moves follow the quintic law, whose greatest speed is
-    15/8 of its mean. Raises ValueError if the arm does not reach the bin or the bin is on axis 1.
+    """Return the times (161,), in s, that a move from a bin (3,) to each place of `WINDOW` takes,
+    for an arm with `LINKS` and the joint speed limit `SPEED`. The moves follow the quintic law,
+    whose greatest speed is 15/8 of the mean speed. Raises ValueError if the arm does not reach the
+    bin, or if the bin is on axis 1.
     """
     place = floats(bin_place, "bin_place", 3)
     stand = principal_postures(*LINKS, place)
     if place.ndim != 1 or not np.isfinite(stand).all():
-        wanted = "wanted a place (3,) in m that the arm reaches, not on its axis 1"
+        wanted = "wanted a place (3,) in m that the arm reaches and that is not on axis 1"
         raise ValueError(f"bin_place: {wanted}, got {short(bin_place)}")
     return 15 / 8 * travel_time(stand, principal_postures(*LINKS, WINDOW), [SPEED] * 3)
 

@@ -34,7 +34,7 @@ def refined_maximum(
 
     `function` maps an array (k,) to an array (k,), NaN where it has no value. For a minimum, negate
     the function. Raises TypeError if `function` is not callable. Raises ValueError if the interval
-    is not finite, a result has another shape, there is no value at all, or the maximum does not
+    is not finite, a result has another shape, there is no value at all, or the search does not
     converge, for example near a pole.
 
     >>> value, at = refined_maximum(lambda t: t * np.exp(-t), 0, 3, 3)
@@ -71,7 +71,7 @@ def refined_maximum(
         stretches.sort()
     else:
         got = f"{best.value:g} after {MOST} intervals"
-        raise ValueError(f"function: wanted a maximum that converges, got {got}")
+        raise ValueError(f"function: wanted one for which the search converges, got {got}")
     if best.value == -np.inf:
         raise ValueError("function: wanted at least one value, got only NaN")
     return best

@@ -1,4 +1,4 @@
-"""The player of a conveyor: arms beside a belt pick its objects, each with its own clock."""
+"""The player of a conveyor, in which several arms pick objects from a belt."""
 
 from collections.abc import Sequence
 
@@ -13,28 +13,29 @@ from ..motion import ptp, quintic
 from ..units import mm
 from .player import Player, animate
 
-OBJECTS = 200  # on the belt
-PITCH = 1.0  # m, from arm to arm
+OBJECTS = 200  # in the stream
+PITCH = 1.0  # m, between neighbouring arms
 SHOWN = 6.0  # seconds of the motion
 SAMPLES = 1201
-RADIUS = 22 * mm  # of an object
-HANGS = 30 * mm  # an object is so far below the tool that carries it
-BEFORE, AFTER = 200 * mm, 100 * mm  # how far the drawn belt goes beyond the windows
+RADIUS = 22 * mm  # the radius of an object
+HANGS = 30 * mm  # from a tool down to the object that it carries
+BEFORE, AFTER = 200 * mm, 100 * mm  # how far the drawn belt extends beyond the windows
 SLOWEST, FASTEST = 0.02, 0.5  # m/s, of the belt
-BUSIEST = 6  # greatest number of arms, and of spreads
+BUSIEST = 6  # maximum number of arms, and of spreads
 SQUARE = np.array([[-1, -1], [1, -1], [1, 1], [-1, 1]])
 
 
 def conveyor_player(v: float = 0.2, spreads: ArrayLike = (0.0, 0.5, 1.0), arms: int = 3) -> Player:
-    """Show the line of lab 14 for six seconds in the middle of a stream of 200 objects: equal arms
-    in a row, which each take the object with which they are back soonest.
+    """Show the conveyor of lab 14 for six seconds in the middle of a stream of 200 objects. The
+    arms are identical and stand in a row. Each of them picks the object that it can bring to its
+    bin soonest.
 
     v        speed of the belt, 0.02 to 0.5 m/s
-    spreads  the values of the slider, two to six fractions from 0 to 1: see `spaced`
-    arms     two to six
+    spreads  the values of the slider, two to six increasing fractions from 0 to 1: see `spaced`
+    arms     number of arms, two to six
 
-    The numbers beside the arms and the curves count the objects that were brought to the bins
-    since the six seconds began. The belt is divided where a window begins or ends. Raises
+    The numbers next to the arms and the curves count the objects brought to the bins since the
+    start of the six seconds. Lines across the belt mark where each window begins and ends. Raises
     ValueError if a number is outside these ranges.
     """
     speed, values = number(v, "v"), floats(spreads, "spreads")
@@ -73,7 +74,7 @@ def conveyor_player(v: float = 0.2, spreads: ArrayLike = (0.0, 0.5, 1.0), arms: 
         circles=[(lane, RADIUS) for lane in _lanes(places)],
         faces=_belt(feet) + _boxes(feet),
         quantities={"objects brought": list(numbers.values())},
-        title=f"{speed / mm:.0f} mm/s: at which spread does arm {count} have work?",
+        title=f"{speed / mm:.0f} mm/s: which spread gives arm {count} work to do?",
     )
 
 
@@ -81,7 +82,7 @@ def conveyor_player(v: float = 0.2, spreads: ArrayLike = (0.0, 0.5, 1.0), arms: 
 
 
 def _motion(trips: Trips, times: Floats) -> Floats:
-    """The postures (samples, 3) of an arm: it waits at the bin, meets an object, and returns."""
+    """Return the postures (samples, 3) of an arm, which waits at its bin and fetches objects."""
     at_bin = principal_postures(*LINKS, BIN)
     there = principal_postures(*LINKS, WINDOW[trips.places])
     when = np.stack([trips.leaves, trips.meets, trips.backs], axis=-1).ravel()
@@ -101,8 +102,9 @@ def _objects(
     times: Floats,
     more: float,
 ) -> Floats:
-    """The places of the objects that are seen, (objects, samples, 3): with the belt, then with the
-    tool; NaN in the bin and where no belt is drawn, which is `more` metres longer than for one arm.
+    """Return the places (objects, samples, 3) of the visible objects, which move with the belt and
+    then with a tool. A place is NaN while the object is in a bin or beyond the drawn belt, which is
+    `more` metres longer than for one arm.
     """
     y = ALONG[0] + v * times - stream[:, None]
     place = np.stack([0 * y + WINDOW[0, 0], y, 0 * y + WINDOW[0, 2] - HANGS], axis=-1)
@@ -116,15 +118,15 @@ def _objects(
 
 
 def _lanes(places: Sequence[Floats]) -> Floats:
-    """The same places with several objects in one lane, one after the other: (lanes, motions,
-    samples, 3).
+    """Combine the places of objects that are visible at different times into lanes. Return an array
+    (lanes, motions, samples, 3).
     """
     rows: list[list[Floats]] = []
     for objects in places:
         lanes: list[Floats] = []
         for one in objects:
             there = np.isfinite(one[:, 0])
-            # between two objects of a lane there are some samples with none, so none jumps
+            # a few empty samples between two objects of a lane, so that none seems to jump
             near = np.convolve(there, np.ones(9), "same") > 0
             free = (k for k, lane in enumerate(lanes) if not np.isfinite(lane[near, 0]).any())
             k = next(free, len(lanes))
@@ -138,7 +140,7 @@ def _lanes(places: Sequence[Floats]) -> Floats:
 
 
 def _belt(feet: Floats) -> list[list[list[float]]]:
-    """The parts of the belt: the windows, and what is between them."""
+    """Return the polygons of the belt: the windows and the parts between them."""
     ends = (ALONG[[0, -1]] + feet[:, 1:]).ravel()
     cuts = [ends[0] - BEFORE, *ends, ends[-1] + AFTER]
     middle, half = WINDOW[0, 0], 60 * mm
@@ -149,7 +151,7 @@ def _belt(feet: Floats) -> list[list[list[float]]]:
 
 
 def _boxes(feet: Floats) -> list[list[list[float]]]:
-    """The four walls of each bin."""
+    """Return the polygons of the bins: four walls each."""
     half, height = 80 * mm, 160 * mm
     return [
         [

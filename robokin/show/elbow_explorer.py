@@ -28,32 +28,32 @@ SAYS = {
     "bent": "Elbow {flag}: γ {gamma}°, α {alpha}°, q2 {q2}°, q3 {q3}°.",
     "inside": "Elbow {flag}: joints 2 and 3 are inside their limits.",
     "past": "Elbow {flag}: {facts}.",
-    "stretched": "The arm is stretched: both elbows are one (elbow singularity).",
-    "folded": "The arm is folded: both elbows are one (elbow singularity).",
+    "stretched": "The arm is stretched: both elbows coincide (elbow singularity).",
+    "folded": "The arm is folded: both elbows coincide (elbow singularity).",
     "tooFar": "Out of reach: d is {gap} longer than l2 + l3. The circles do not meet.",
     "tooNear": "Out of reach: d is {gap} shorter than the difference of l2 and l3. The circles do "
     "not meet.",
     "behind": "Behind axis 1: the front flag is \N{MINUS SIGN}1.",
-    "onAxis": "On axis 1: q1 is free (shoulder singularity).",
+    "onAxis": "On axis 1: q1 can have any value (shoulder singularity).",
 }
 MEANT = (
-    "Drag the ring, or move the sliders; a click on a row of the table chooses the elbow. The "
-    "picture is the plane in which the arm bends: r is measured from axis 1, z from the floor, and "
-    "joint 1 turns the plane. An elbow lies on both dotted circles: l2 from joint 2, l3 from "
-    "{point}."
+    "Drag the ring, or move the sliders. Click a row of the table to choose an elbow. The picture "
+    "shows the plane in which the arm bends: r is measured from axis 1, z from the floor, and "
+    "joint 1 turns the plane. Each elbow lies on both dotted circles: it is l2 away from joint 2 "
+    "and l3 away from {point}."
 )
 
 
 def elbow_explorer(arm: ClosedFormArm) -> Explorer:
-    """Show the upright plane in which an arm bends, to scale, with a point to be moved: the wrist
+    """Show the vertical plane in which an arm bends, to scale. The reader moves a point: the wrist
     centre of a six-axis arm, or the flange of an arm that positions a point. The triangle of upper
-    arm l2, forearm l3 and the line d from joint 2 to the point follows, with both elbows; a row of
-    the table chooses one.
+    arm l2, forearm l3 and the line d from joint 2 to the point follows, for both elbows. A click on
+    a row of the table chooses one of them.
 
-    It shows alpha, the elevation of the upper arm, gamma, the angle from the upper arm to the
-    forearm, and joints 2 and 3. It says by how much a joint is past its limit, and by how much d is
-    too long or too short for a triangle. It displays itself at the end of a cell. TypeError: an arm
-    without such a triangle.
+    The explorer shows alpha, the elevation of the upper arm; gamma, the angle from the upper arm to
+    the forearm; and the values of joints 2 and 3. It says by how much a joint exceeds its limit,
+    and by how much d is too long or too short for a triangle. It displays itself at the end of a
+    cell. Raises TypeError if the arm has no such triangle.
     """
     three, elbow = _positioning(arm)
     what, place = arm.geometry.carried, _opening(elbow)
@@ -92,8 +92,8 @@ def elbow_explorer(arm: ClosedFormArm) -> Explorer:
 
 
 def _positioning(arm: ClosedFormArm) -> tuple[ClosedFormArm, Elbow]:
-    """Return an arm of the first three joints, whose flange is at the wrist centre, and its elbow.
-    An arm that positions a point is returned as it is.
+    """Return an arm that has only the first three joints, with its flange at the wrist centre, and
+    its elbow. An arm that positions a point is returned unchanged.
     """
     solid = instance(arm, ClosedFormArm, "arm").geometry
     if isinstance(solid, ElbowGeometry):
@@ -110,8 +110,9 @@ def _positioning(arm: ClosedFormArm) -> tuple[ClosedFormArm, Elbow]:
 
 
 def _opening(elbow: Elbow) -> Floats:
-    """The first place (r, z) of the point, in round numbers: 60 degrees above joint 2, so far from
-    it that upper arm and forearm are about perpendicular, which every elbow can be.
+    """Return the initial place (r, z) of the point, in round numbers. As seen from joint 2, it is
+    60 degrees above the horizontal, at the distance at which upper arm and forearm are
+    perpendicular, up to rounding. Every elbow can reach this distance.
     """
     away = float(np.hypot(elbow.upper, elbow.fore))
     step = series_step(away / 100)
@@ -122,8 +123,8 @@ def _opening(elbow: Elbow) -> Floats:
 
 
 def _room(elbow: Elbow) -> tuple[Floats, Floats]:
-    """The lowest and the highest (r, z) of the point: above the floor, and a little farther than
-    the stretched arm.
+    """Return the lower and the upper limits (r, z) of the point. It stays above the floor, and it
+    can be moved a little beyond the reach of the arm.
     """
     shoulder = np.array([elbow.shoulder_x, elbow.shoulder_z])
     most = BEYOND * (elbow.upper + elbow.fore)
@@ -133,7 +134,7 @@ def _room(elbow: Elbow) -> tuple[Floats, Floats]:
 
 
 def _plane(elbow: Elbow, lowest: Floats, highest: Floats) -> PageScene:
-    """The scene: the plane y = 0 from the side, with a grid in place of the floor."""
+    """Return the scene: the plane y = 0 from the side, with a grid instead of a floor."""
     step = series_step(float((highest - lowest).max()) / 8)
     low, high = np.floor(lowest / step + 1e-9), np.ceil(highest / step - 1e-9)
     return {
@@ -151,14 +152,14 @@ def _plane(elbow: Elbow, lowest: Floats, highest: Floats) -> PageScene:
 
 
 def _angles(elbow: Elbow, q: Floats) -> tuple[float, float]:
-    """alpha and gamma of a posture; gamma is within half a turn."""
+    """Return alpha and gamma of a posture, with gamma between -pi and pi."""
     return elbow.upper_angle + elbow.sign2 * float(q[1]), float(wrapped(elbow.bend(q)))
 
 
 def _summary(
     arm: ClosedFormArm, elbow: Elbow, place: Floats, rows: Floats, unit: PageUnit, decimals: int
 ) -> str:
-    """Say where the point is, and the angles of both elbows."""
+    """State the position of the point and the angles of both elbows."""
     away = place - [elbow.shoulder_x, elbow.shoulder_z]
     r, z, d = (number(x / unit["size"], decimals) for x in (*place, float(np.hypot(*away))))
     facts = {"r": r, "z": z, "d": d, "unit": unit["name"]}

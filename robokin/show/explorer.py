@@ -78,14 +78,14 @@ WORDS: Mapping[str, str] = {
     "acceleration": "greatest acceleration, per s²",
     "sampled": "{what}, of {samples} samples",
     "near": "The path passes {distance} from via.",
-    "hardest": "Joint {joint} works hardest: {value}.",
-    "closeUp": "The corner, close up. ",
+    "hardest": "Joint {joint} accelerates most: {value}.",
+    "closeUp": "Close-up of the corner. ",
     "fromStart": "from start",
     "toGoal": "to goal",
     "missingSamples": "No solution in {none} of {all} samples.",
-    "pastSamples": "q{joint} is past its limit in {past} of {all} samples.",
-    "fastSamples": "q{joint} is past its speed limit in {past} of {all} samples.",
-    "jump": "The speed jumps at {time} s: there is no acceleration there.",
+    "pastSamples": "q{joint} exceeds its limit in {past} of {all} samples.",
+    "fastSamples": "q{joint} exceeds its speed limit in {past} of {all} samples.",
+    "jump": "The speed jumps at {time} s, so there is no finite acceleration.",
 }
 
 
@@ -257,7 +257,7 @@ def picture(
     points: Mapping[str, Floats] | None = None,
     zone: Zone | None = None,
 ) -> plots.Figure:
-    """Draw one posture boldly and the others faintly; with a zone, from above."""
+    """Draw one posture boldly and the others faintly. If there is a zone, draw them from above."""
     fig = plots.figure(alt, width=6.4, height=4.5)
     scene = Scene(fig.add_axes((0, 0, 1, 1)), size=extent(arm), flat=zone is not None)
     if zone:

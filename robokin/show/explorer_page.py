@@ -1,4 +1,4 @@
-"""The types of the data of the explorers. Those of an explorer's arm are in `twin`."""
+"""The types of the data of explorers. The types of the data of an arm are in `twin`."""
 
 from typing import Any, Literal, NotRequired, TypeAlias, TypedDict
 
@@ -69,7 +69,7 @@ class JumpRules(TypedDict):
 
 class BranchTask(TypedDict):
     """An exercise: the number of different postures that must reach the target, and the sentences
-    to show when the task is solved (`holds`) and until then (`open`).
+    to show when the task is solved (`holds`) and before that (`open`).
     """
 
     wanted: int
@@ -113,8 +113,9 @@ class JointPage(ArmPage):
 
 
 class PageCosts(TypedDict):
-    """The curve of the sum S over the free angle alpha: its title, the text of its axis, and the
-    names of its three terms and the dashes of their lines, or none if only S is drawn.
+    """The curve of the sum S against the free angle alpha: its title, the label of its axis, the
+    names of its three terms, and the dash patterns of their lines. `terms` and `dashes` are empty
+    if only S is drawn.
     """
 
     title: str
@@ -124,7 +125,7 @@ class PageCosts(TypedDict):
 
 
 class LeversPage(ArmPage):
-    """The data of an explorer of three levers: the previous posture q, the points to reach one
+    """The data of an explorer of three levers: the previous posture q, the points to be reached one
     after the other, and the curve of the sum of the angle changes.
     """
 
@@ -135,8 +136,8 @@ class LeversPage(ArmPage):
 
 
 class ElbowPage(ArmPage):
-    """The data of the explorer of an elbow: the point [r, z] in the plane of the arm, the headings
-    of the table, and the names of its rows.
+    """The data of the elbow explorer: the initial point [r, z] in the plane of the arm, the
+    headings of the table, and the names of its rows.
     """
 
     kind: Literal["elbow"]
@@ -162,8 +163,8 @@ class CrossingPage(ArmPage):
 class TargetPage(ArmPage):
     """The data of the target explorer: the target, its rotations in radians, the previous posture
     q, the names of the branches, the headings of the table, and the joints whose angle changes are
-    added up in the column "travel". `watched` lists the joints for which the explorer says how far
-    the one nearest to a limit is from it. `task` belongs to an exercise.
+    added up in the column "travel". The explorer says which of the joints in `watched` is nearest
+    to one of its limits, and how near. `task` belongs to an exercise.
     """
 
     kind: Literal["target"]
@@ -179,7 +180,8 @@ class TargetPage(ArmPage):
 
 class MotionPage(ArmPage):
     """The data of the motion explorer: the stations, the initial values, the names of laws,
-    corners, branches and panels, the number of samples, and whether it shows the corner close up.
+    corners, branches and panels, the number of samples, and whether the explorer shows a close-up
+    of the corner.
     """
 
     kind: Literal["motion"]
@@ -199,7 +201,8 @@ class MotionPage(ArmPage):
 
 class SingularityPage(ArmPage):
     """The data of the singularity explorer: the singular pose, two unit vectors (the direction of
-    the line, and that in which it misses the pose), the row of `ik`, and the tool's speed in m/s.
+    the line, and the direction from the pose to the line), the row of `ik`, and the tool's speed in
+    m/s.
     """
 
     kind: Literal["singularity"]
@@ -225,10 +228,10 @@ class ClearancePage(ArmPage):
 
 
 class RotationPage(ExplorerPage):
-    """The data of the rotation explorer: two perpendicular unit vectors (the axis, and the one
-    across it towards v), the length of v in metres, the opening angles in radians (of the rotation,
-    and between v and the axis), the names of the rows and the headings of the table, and the number
-    of decimals of lengths.
+    """The data of the rotation explorer: two perpendicular unit vectors (the axis, and the
+    direction from the axis to the tip of v), the length of v in metres, the initial angles in
+    radians (of the rotation, and between v and the axis), the names of the rows and the headings of
+    the table, and the number of decimals of lengths.
     """
 
     kind: Literal["rotation"]
@@ -266,7 +269,7 @@ class LivePage(ExplorerPage):
 
 
 class PlanPage(LivePage):
-    """The data of the explorer of plans: the arm, the names of the ways to plan (`branches`), and
+    """The data of the plan explorer: the arm, the names of the planning methods (`branches`), and
     the value of forbidden cells in the cube.
     """
 
@@ -277,9 +280,9 @@ class PlanPage(LivePage):
 
 
 class TourPage(LivePage):
-    """The data of the explorer of tours: the names of the kinds of tasks and of the tours, whether
-    the best one is shown at first, the speeds of the joints (rad/s), the maximum number of points,
-    and the places of points that the reader adds.
+    """The data of the tour explorer: the names of the kinds of tasks and of the tours, whether the
+    best one is shown at first, the speeds of the joints (rad/s), the maximum number of points, and
+    the places of points that the reader adds.
     """
 
     kind: Literal["tour"]

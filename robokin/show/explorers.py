@@ -146,17 +146,17 @@ def target_explorer(
     the cost of moving there from the previous posture, and, if the levers are unequal, their
     lengths.
 
-    With `zone`, the explorer shows a SCARA from above, with the zone in which the tool can be
-    (`things.Zone`), and says how far joint 1 or 2, whichever is nearer, is from its limit.
+    With `zone`, the explorer shows a SCARA from above, together with the zone that its tool can
+    reach (`things.Zone`). It says which of joints 1 and 2 is nearer to its limit, and how near.
 
     Raises TypeError if the arm has neither an inverse nor a family of postures, if `target` is not
     a Transform (a ScaraPose for a SCARA), or if `zone` is true and the arm is not a SCARA. Raises
-    ValueError if `target` is a batch or out of reach, or if there is one for three levers.
+    ValueError if `target` is a batch or out of reach, or if it is given for an arm of three levers.
     """
     around = Zone(arm) if yes(zone, "zone") else None  # type: ignore[arg-type]
     if isinstance(arm, ThreeLeverArm):
         if target is not None:
-            raise ValueError(f"target: wanted none for three levers, got {short(target)}")
+            raise ValueError(f"target: wanted None for an arm of three levers, got {short(target)}")
         return levers_explorer(arm)
     inverted(arm)
     place, turns, q = _showcase(arm) if target is None else _opened(arm, target)
@@ -242,7 +242,7 @@ def _showcase(arm: ClosedFormArm) -> tuple[Floats, Floats, Floats]:
 
 
 def _opened(arm: ClosedFormArm, target: Pose) -> tuple[Floats, Floats, Floats]:
-    """The same values as `_showcase`, for the target of a call."""
+    """Return the same values as `_showcase`, but for a given target."""
     kind = ScaraPose if arm.target is ScaraPose else Transform
     if instance(target, kind, "target").shape:
         raise ValueError(f"target: wanted a single pose, got a batch of shape {target.shape}")
@@ -306,7 +306,7 @@ def _wrist_turns(arm: Arm, q: Floats) -> Floats:
 
 
 def _target_controls(arm: Arm) -> list[Control]:
-    """The sliders of a target: its position, and its rotations."""
+    """Return the sliders of a target, for its position and its rotations."""
     name, size = length_unit(extent(arm))
     most = float(np.ceil(1.05 * extent(arm) / (50 * mm)) * 50 * mm / size)
     letters = "xyz" if common_plane([arm]) is None else "xy"
@@ -315,12 +315,12 @@ def _target_controls(arm: Arm) -> list[Control]:
 
 
 def _heads(arm: Arm) -> list[str]:
-    """The headings of the table of branches."""
+    """Return the headings of the table of branches."""
     turning = np.flatnonzero(~arm.prismatic)
     joints = ", ".join(f"q{j + 1}" for j in turning)
     return [
         "branch",
-        "verdict",
+        "status",
         *(f"q{i + 1} {unit['name']}" for i, unit in enumerate(units(arm))),
         "distance from singularity",
         # only angles are counted, since a stroke is the same in every row
@@ -329,8 +329,8 @@ def _heads(arm: Arm) -> list[str]:
 
 
 def _found(arm: ClosedFormArm, target: Pose, rows: Floats, row: int, watched: list[int]) -> str:
-    """How many rows of `ik` are usable, what can be said about one of them, and how far its watched
-    joints are from their limits.
+    """Say how many rows of `ik` are usable, explain one of them, and say which of its watched
+    joints is nearest to a limit.
     """
     usable = np.all(within(arm, rows), axis=-1)
     count = int(usable.sum())
@@ -369,7 +369,7 @@ def _target_code(arm: Arm, size: float) -> str:
 
 
 def _room(arm: Arm, q: Floats, joints: list[int]) -> str:
-    """How far the joint that is nearest to a limit is from it, as a sentence."""
+    """Say how far the joint nearest to one of its limits is from this limit."""
     room = abs(arm.limits[joints] - q[joints, None]) / deg
     k, side = np.unravel_index(room.argmin(), room.shape)
     limit = f"{arm.limits[joints[k], side] / deg:g}°"

@@ -152,13 +152,13 @@ def flaws(track: Recording, kept: Ints, units: Floats, length: str) -> Flaws:
         for j, excess in enumerate(track.excess[c].T):
             if (excess > 0).any():
                 notes.setdefault(c, []).append(
-                    f"q{j + 1} is past its limit in {(excess > 0).sum()} of {count} samples, "
+                    f"q{j + 1} exceeds its limit in {(excess > 0).sum()} of {count} samples, "
                     f"{spells(track.t, excess > 0)}, by up to {amount(np.nanmax(excess), j)}."
                 )
         for j, excess in enumerate(track.speed_excess[c].T):
             if (excess > 0).any():
                 notes.setdefault(c, []).append(
-                    f"q{j + 1} is past its speed limit in {(excess > 0).sum()} of {count} samples, "
+                    f"q{j + 1} exceeds its speed limit in {(excess > 0).sum()} of {count} samples, "
                     f"{spells(track.t, excess > 0)}."
                 )
         if track.missing[c].any():
@@ -169,12 +169,12 @@ def flaws(track: Recording, kept: Ints, units: Floats, length: str) -> Flaws:
         times = ", ".join(f"{when:.2f}" for when, _ in marked[:3])
         more = f" and {len(marked) - 3} more times" if len(marked) > 3 else ""
         notes.setdefault(c, []).append(
-            f"The speed jumps at {times} s{more}, so there is no acceleration there."
+            f"The speed jumps at {times} s{more}, so there is no finite acceleration."
         )
     for c, marked in leaps.items():
         first = "; ".join(f"{text} at {when:.2f} s" for when, text in marked[:3])
         more = f"; and {len(marked) - 3} more" if len(marked) > 3 else ""
-        notes.setdefault(c, []).append(f"Jumps of position: {first}{more}.")
+        notes.setdefault(c, []).append(f"Jumps in position: {first}{more}.")
 
     def told(flaws: dict[int, Any]) -> dict[str, Any]:
         return {str(c): value for c, value in sorted(flaws.items())}

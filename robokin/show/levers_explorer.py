@@ -1,4 +1,4 @@
-"""The explorers of an arm that reaches a point with a family of postures."""
+"""The explorers of an arm with three levers, which reaches a point with a family of postures."""
 
 from collections.abc import Mapping
 from typing import Any
@@ -17,11 +17,11 @@ from .explorer_page import LeversPage
 from .palette import DASHES, INK
 from .scene import Scene
 
-MOST = 20  # greatest number of targets
+MOST = 20  # maximum number of targets
 TERMS = tuple(f"|\N{GREEK CAPITAL LETTER DELTA}{letter}|" for letter in "γβα")
 NOWHERE = "No posture reaches this point: "
 SAYS: Mapping[str, str] = {
-    "takeAlpha": "joint A, the gripper stays",
+    "takeAlpha": "joint A, the gripper stays in place",
     "nextTarget": "next target",
     "least": "Least S",
     "begin": "Begin here",
@@ -30,12 +30,12 @@ SAYS: Mapping[str, str] = {
     "{least}°, at alpha = {best}°.",
     "termSays": "gamma {gamma}°, beta {beta}°, alpha {alpha}°: S = {terms} = {S}°; the longest "
     "turn is {longest}°. The least S is {least}°, at alpha = {best}°: {why}",
-    "sumSays": " With the {before}° before, {all}° in all.",
+    "sumSays": " With the earlier {before}°, the total is {all}°.",
     "stays": "{names} keeps its value.",
     "stay": "{names} keep their values.",
     "atEnd": "an end of its range.",
-    "isLevel": "S is level there.",
-    "curveSays": "S from alpha {low}° to {high}°. It is least, {least}°, at {best}°.",
+    "isLevel": "the curve of S is level there.",
+    "curveSays": "S for alpha from {low}° to {high}°. The least S is {least}°, at {best}°.",
     "kink": "A kink at {alpha}°, where {name} keeps its value.",
 }
 
@@ -55,15 +55,16 @@ def levers_explorer(arm: ThreeLeverArm) -> Explorer:
 
 
 def movement_explorer(arm: ThreeLeverArm, previous: ArrayLike, target: ArrayLike) -> Explorer:
-    """Show what a target costs an arm of three levers: the sum S of the angle changes from the
-    posture `previous` (3,), as a curve over the free angle alpha, with its three terms |d gamma|,
-    |d beta| and |d alpha|. Rings mark the kinks of S, where a term is zero, and a diamond its least
-    value.
+    """Show how much an arm of three levers has to turn to reach a target: the sum S of the angle
+    changes from the posture `previous` (3,), as a curve over the free angle alpha, with its three
+    terms |d gamma|, |d beta| and |d alpha|. Rings mark the kinks of S, where a term is zero, and a
+    diamond marks the least value of S.
 
-    The reader drags joint A or the curve to choose alpha, and the target. *Begin here* makes the
-    posture the previous one. With several targets (k, 2), in metres, it also goes on to the next
-    one, and the page adds up the changes. Raises ValueError if there is no posture or no target,
-    or the arm does not reach a target, and TypeError if the arm does not have three levers.
+    The reader chooses alpha by dragging joint A or the curve, and can also drag the target.
+    The button *Begin here* makes the current posture the previous one. If there are several targets
+    (k, 2), in metres, it also moves on to the next target, and the page adds up the changes. Raises
+    ValueError if `previous` is not one posture, if there is no target, or if the arm does not reach
+    a target. Raises TypeError if the arm does not have three levers.
     """
     instance(arm, ThreeLeverArm, "arm")
     before, places = floats(previous, "previous", 3), floats(target, "target", 2)
@@ -101,8 +102,8 @@ def _page(
     seen: Floats,
     terms: tuple[str, ...],
 ) -> LeversPage:
-    """The data of a page with the previous posture (3,) and the targets (k, 2), in which the
-    postures `seen` (n, 3) have room.
+    """Return the data of a page with the previous posture (3,) and the targets (k, 2). The picture
+    has room for the postures `seen` (n, 3).
     """
     name, size = length_unit(extent(arm))
     most = float(np.ceil(1.05 * extent(arm) / (50 * mm)) * 50 * mm / size)
@@ -158,7 +159,7 @@ def reasons(arm: ThreeLeverArm) -> dict[str, str]:
 
 
 def _still(summary: str, arm: ThreeLeverArm, before: Floats, place: Floats) -> plots.Figure:
-    """The arm before and in the posture with the least S, next to the curve."""
+    """Draw the arm in the previous posture and in the one with the least S, next to the curve."""
     fig = plots.figure(summary, width=8, height=4)
     scene = Scene(fig.add_axes((0, 0, 0.5, 1)), size=extent(arm), flat=True)
     scene.base()

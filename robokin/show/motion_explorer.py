@@ -39,7 +39,7 @@ from .palette import DASHES
 from .player import still_picture
 from .things import Target
 
-BLEND = 0.1  # with which an explorer opens
+BLEND = 0.1  # the initial blend
 STRAIGHT = 1e-3  # rad: a smaller change of direction is not a corner
 SAMPLES = 241  # samples of a motion: enough for its speeds, few enough to follow the pointer
 LAWS: Mapping[Law, Callable[[float], TimeLaw]] = {
@@ -69,13 +69,14 @@ def motion_explorer(
     the time law `law`, a `duration` in seconds, and the branch `row`, by default the first of those
     with the most usable samples.
 
-    With `close_up` start, via point and goal stay where they are. The picture shows the corner at
-    the via point, in the plane of its two lines, with a ring that changes the blend. Beside it are
-    the accelerations and the name of the joint that works hardest.
+    With `close_up`, the reader cannot move start, via point and goal. The picture shows a close-up
+    of the corner at the via point, in the plane of its two lines, with a ring that changes the
+    blend. Next to it are the curves of the joint accelerations.
 
     The poses are single targets of `arm.ik` (Transform, or ScaraPose for a SCARA). Raises
-    ValueError if they are batches of poses, if there is no such row, or if there is no corner to
-    show close up. Raises TypeError if the poses are of another type, or if the arm has no `ik`.
+    ValueError if they are batches of poses, if there is no such row, or if `close_up` is True and
+    start, via point and goal are on one line. Raises TypeError if the poses are of another type, or
+    if the arm has no `ik`.
     """
     inverted(arm)
     stations = {"start": start, "via": via, "goal": goal}
@@ -240,7 +241,7 @@ def _fastest(
             ]
             best = max(tops)
             return best.value, int(speeds(np.array([best.at]))[0].argmax()), ""
-        except ValueError:  # near a singularity the maximum does not converge
+        except ValueError:  # near a singularity, the search may not converge
             pass
     sampled = np.nan_to_num(track.greatest_speed.value) / scale
     return float(sampled.max()), int(sampled.argmax()), f" of {SAMPLES} samples"

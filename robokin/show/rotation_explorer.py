@@ -17,7 +17,7 @@ from .page import PageScene
 from .palette import INK, REMARK, SECOND, SOFT, TRACE
 from .scene import Scene
 
-MOST = 4 * np.pi  # after two whole turns the quaternion is the same again
+MOST = 4 * np.pi  # after two whole turns, the quaternion has its initial value again
 FARTHEST = 120  # degrees: the largest angle between v and the axis
 ROWS = ("q", "v", "q v", "q v q*")
 SEEN = (
@@ -40,20 +40,21 @@ SAYS = {
 }
 MEANT = (
     "Drag the rings, or move the sliders: θ is the angle of the rotation about the axis n, φ is "
-    "the angle between v and n. The two coloured arcs are θ/2 each. The dotted line from the "
+    "the angle between v and n. Each of the two coloured arcs is θ/2. The dotted line from the "
     "circle to the tip of q v is parallel to n."
 )
 
 
 def rotation_explorer(angle: float, axis: ArrayLike, v: ArrayLike) -> Explorer:
-    """Show a vector v (3,), in metres, and what the quaternion q of the rotation by `angle` about
-    the unit vector `axis` (3,) makes of it: the product q v, whose vector part is drawn and whose
-    real part is a number, and q v q*, which is the rotated vector. The reader changes the angle of
-    the rotation, from 0 to two whole turns, and the angle between v and the axis.
+    """Show a vector v (3,), in metres, and the products q v and q v q*, where q is the quaternion
+    of the rotation by `angle` about the unit vector `axis` (3,). The vector part of q v is drawn,
+    and its real part is shown as a number; q v q* is the rotated vector. The reader changes the
+    angle of the rotation, from 0 to two whole turns, and the angle between v and the axis.
 
-    `angle` is in radians. It displays itself at the end of a cell. Raises ValueError if the angle
-    is below 0 or above 4 pi, if `axis` is not one unit vector, or if v is not one vector, is more
-    than 120 degrees away from the axis, or is too short or too long to draw.
+    `angle` is in radians. The explorer displays itself at the end of a cell. Raises ValueError if
+    the angle is below 0 or above 4 pi, or if `axis` is not one unit vector. Raises ValueError if v
+    is not one vector, is more than 120 degrees away from the axis, or is too short or too long to
+    draw.
     """
     turn = number(angle, "angle")
     if not 0 <= turn <= MOST:
@@ -110,8 +111,8 @@ def rotation_explorer(angle: float, axis: ArrayLike, v: ArrayLike) -> Explorer:
 
 
 def _across(n: Floats, v: Floats) -> Floats:
-    """A unit vector perpendicular to n, in the plane of n and v; if v is parallel to n, in the
-    plane of n and the coordinate axis that is farthest from n.
+    """Return a unit vector perpendicular to n, in the plane of n and v. If v is parallel to n, it
+    is in the plane of n and the coordinate axis that is farthest from n.
     """
     for way in (v, np.eye(3)[abs(n).argmin()]):
         side = way - (way @ n) * n
@@ -123,14 +124,14 @@ def _across(n: Floats, v: Floats) -> Floats:
 
 
 def _products(angle: float, n: Floats, v: Floats) -> tuple[Floats, Floats]:
-    """The products q v and q v q*, each (4,)."""
+    """Return the products q v and q v q*, each (4,)."""
     w, (x, y, z) = np.cos(angle / 2), np.sin(angle / 2) * n
     left = hamilton((w, x, y, z), (0.0, *v))
     return np.array(left), np.array(hamilton(left, (w, -x, -y, -z)))
 
 
 def _scene(n: Floats, across: Floats, length: float) -> PageScene:
-    """A scene without a floor, with room for a vector of this length at every angle to the axis."""
+    """Return a scene without a floor that has room for a vector of this length in any direction."""
     tilt, turn = np.meshgrid(np.linspace(0, FARTHEST * deg, 5), np.arange(0, 360, 45) * deg)
     tilt, turn = tilt[..., None], turn[..., None]
     ways = np.cos(tilt) * n + np.sin(tilt) * (

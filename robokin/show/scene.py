@@ -406,7 +406,7 @@ class Scene:
                     self.ax.text(x, y, f" {words} ", fontsize=9, color=SCALE, ha=ha, va=va)
 
     def _at(self, x: float, y: float) -> Floats:
-        """Return the point (3,) of the floor with these two coordinates."""
+        """Return the point (3,) on the floor that has these two coordinates."""
         point = np.array([0.0, 0.0, self.ground])
         point[self.across] = x, y
         return point

@@ -26,9 +26,9 @@ from .explorer_page import SingularityPage
 from .numbers import rounded
 
 HALF = 100 * mm  # half the length of the line
-SPEED = 100 * mm  # per second: the speed of the tool on the line
-JOINT = 3  # joint 4, from 0
-MISSES = 200  # the most values of the miss above 0, since all of them are checked
+SPEED = 100 * mm  # per second: the speed of the tool along the line
+JOINT = 3  # the index of joint 4
+MISSES = 200  # maximum number of values of the miss above 0, each of which is checked
 WORDS_HERE = {
     **{name: WORDS[name] for name in ("copy", "copied")},
     "takeTool": "tool along the line",
@@ -37,17 +37,18 @@ WORDS_HERE = {
     "turns": "{turns} turns/s",
     "degrees": "= {degrees}°/s",
     "free": "free",
-    "near": "The tool is {distance} mm from the singular pose; axes 4 and 6 enclose {bend}°.",
-    "isFree": "Singular: axes 4 and 6 are in one line. Joint 4 is free: joint 6 can take back its "
+    "near": "The tool is {distance} mm from the singular pose; the angle between axes 4 and 6 is "
+    "{bend}°.",
+    "isFree": "Singular: axes 4 and 6 are in one line. Joint 4 is free: joint 6 can undo its "
     "rotation, so joint 4 need not turn at all.",
     "axis": "turns/s, with a miss of {miss} mm",
     "scene": "{name} with its tool at {place} mm on a line that passes {miss} mm beside the "
     "singular pose. {says}",
-    "curve": "The speed of joint 4 over the place on the line, with a miss of {miss} mm. It "
-    "goes up to {most} turns/s; at {place} mm it is {speed}.",
+    "curve": "The speed of joint 4 along the line, with a miss of {miss} mm. It "
+    "reaches {most} turns/s; at {place} mm it is {speed}.",
 }
 MEANT = (
-    "Take hold of the ring at the tool and drag it along the line, or move the sliders. The number "
+    "Drag the ring at the tool along the line, or move the sliders. The number "
     "does not depend on how fast you drag: it follows from the Jacobian J at this posture, as the "
     "fourth entry of J\u207b\u00b9(v, 0), where v is the velocity of the tool, which does not "
     "rotate. The dash-dotted lines are axes 4 and 6."
@@ -62,18 +63,20 @@ def singularity_explorer(
     most: float = 50 * mm,
     step: float = 1 * mm,
 ) -> Explorer:
-    """Show an arm whose tool the reader pulls along a straight line past the wrist singularity of
-    the posture q (6,), and how fast joint 4 would have to turn there for the tool to go on along
-    the line at 100 mm/s. The tool keeps its orientation at q. The line has the direction `way`
-    (3,) in base coordinates and leads 100 mm to either side of its middle. The middle is beside the
-    tool's place at q, perpendicular to the line and to axis 4; a slider sets this distance, the
-    miss, from 0 to `most` in steps of `step` (metres).
+    """Show an arm whose tool the reader pulls along a straight line past a wrist singularity. The
+    singular pose is that of the tool at the posture q (6,). The explorer shows how fast joint 4
+    would have to turn for the tool to move along the line at 100 mm/s without rotating. The line
+    has the direction `way` (3,) in base coordinates and extends 100 mm to either side of its
+    middle. From the singular pose, the middle is displaced in a direction perpendicular to the line
+    and to axis 4. A slider sets this distance, the miss, from 0 to `most` in steps of `step`
+    (metres).
 
-    The speed is the fourth entry of J^-1 (v, 0), with the Jacobian at the posture; in the singular
-    pose itself joint 4 is free. TypeError: an arm without a spherical wrist. ValueError: a q that
-    is not one posture with a wrist singularity and no other; a `way` along axis 4; a `step` that
-    is not a whole number of millimetres; a `most` that is not 1 to 200 of them; a line on which the
-    arm meets another singularity, or which it cannot follow within its limits.
+    The speed is the fourth entry of J^-1 (v, 0), where J is the Jacobian and v the velocity of the
+    tool. In the singular pose itself, joint 4 is free. Raises TypeError if the arm has no spherical
+    wrist. Raises ValueError if q is not one posture with a wrist singularity and no other, if `way`
+    is along axis 4, if `step` is not a whole number of millimetres, or if `most` is not 1 to 200
+    steps. Raises ValueError if the arm meets another singularity on the line, or cannot follow it
+    within its limits.
     """
     inverted(arm)
     if not isinstance(arm.geometry, SphericalWristGeometry):
@@ -82,7 +85,7 @@ def singularity_explorer(
     along, beside = _directions(arm, posture, way)
     misses = _misses(most, step)
     hit = arm.fk(posture)
-    # without rounding noise, which differs between processors
+    # without rounding errors, which differ between processors
     pose = Transform(Quaternion(rounded(hit.rotation.wxyz, 12)), rounded(hit.translation, 12))
     row, rows = _followed(arm, pose, posture, along, beside, misses)
     opening = rows[0, 0]
@@ -118,7 +121,9 @@ def singularity_explorer(
 
 
 def _singular(arm: ClosedFormArm, q: ArrayLike) -> Floats:
-    """One posture (6,) with a wrist singularity and no other."""
+    """Return q as one posture (6,). Raises ValueError if it does not have a wrist singularity, or
+    has another one.
+    """
     posture = floats(q, "q", 6)
     held = [name for name, holds in arm.geometry.singularities(posture).items() if np.any(holds)]
     if posture.ndim != 1 or held != ["wrist"]:
@@ -130,9 +135,9 @@ def _singular(arm: ClosedFormArm, q: ArrayLike) -> Floats:
 
 
 def _directions(arm: ClosedFormArm, posture: Floats, way: ArrayLike) -> tuple[Floats, Floats]:
-    """Two unit vectors (3,): the direction of the line, and that in which it misses the pose."""
+    """Return two unit vectors (3,): along the line, and from the singular pose to the line."""
     direction, axis = floats(way, "way", 3), arm.jacobian(posture)[3:, JOINT]
-    direction = direction / (abs(direction).max(initial=0.0) or 1.0)  # a square may overflow
+    direction = direction / (abs(direction).max(initial=0.0) or 1.0)  # its square could overflow
     found = []
     for vector in (direction, np.cross(axis, direction)):
         size = np.linalg.norm(vector)
@@ -143,7 +148,7 @@ def _directions(arm: ClosedFormArm, posture: Floats, way: ArrayLike) -> tuple[Fl
 
 
 def _misses(most: float, step: float) -> Floats:
-    """The values of the miss: 0, step, 2 step, ..., most."""
+    """Return the values of the miss: 0, step, 2 step, ..., most."""
     apart, end = (length(x, name) / mm for x, name in ((step, "step"), (most, "most")))
     count = round(end / apart) if end < (MISSES + 0.5) * apart else 0
     if not count or max(abs(apart - round(apart)), abs(end - count * apart)) > 1e-6:
@@ -162,8 +167,8 @@ def _followed(
     beside: Floats,
     misses: Floats,
 ) -> tuple[int, Floats]:
-    """The row of `ik` nearest to a posture at the start of the line, and its joint values (places,
-    misses, 6) at every step of both sliders.
+    """Return the row of `ik` that is nearest to a posture at the start of the line, and its joint
+    values (places, misses, 6) at every step of both sliders.
     """
     places = np.linspace(-HALF, HALF, 201)
     shift = places[:, None, None] * along + misses[:, None] * beside
@@ -177,8 +182,8 @@ def _followed(
     if not (good & ~held).all():
         at, aside = np.argwhere(held | ~good)[0]
         raise ValueError(
-            "way: wanted a line that the arm can follow, without another singularity, got none "
-            f"at {places[at] / mm:.0f} mm with a miss of {misses[aside] / mm:.0f} mm"
+            "way: wanted a line that the arm can follow, without another singularity, got no "
+            f"posture at {places[at] / mm:.0f} mm with a miss of {misses[aside] / mm:.0f} mm"
         )
     return row, q
 

@@ -176,7 +176,7 @@ def reasons_outside(l1: float, l2: float, point: Floats) -> tuple[str, ...]:
     x, y, z = point.tolist()
     rho, d = math.hypot(x, y), math.hypot(x, y, z)
     return (
-        f"is too far: {d - l1 - l2:.4g} m beyond the stretched arm, l1 + l2 = {l1 + l2:.9g} m",
+        f"is too far: {d - l1 - l2:.4g} m beyond the reach of the arm, l1 + l2 = {l1 + l2:.9g} m",
         f"is under the floor: z = {z:.9g} m",
         f"is too close to the origin: |p| = {d:.9g} m is less than l1 - l2 = {l1 - l2:.9g} m",
         f"is too close to the origin: |p|^2 = {d * d:.9g} m^2 is less than "

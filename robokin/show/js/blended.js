@@ -13,7 +13,7 @@ import {record} from "./recorded.js";
 /** @import {Asked, State} from "./motion_parts.js" */
 
 /** @typedef {ReturnType<typeof motionOf>} Motion */
-/** @typedef {{place: Point, text: string}} Near  where a path passes the via point, and how far */
+/** @typedef {{place: Point, text: string}} Near  the nearest point to via, and its distance */
 /**
  * The greatest speeds and accelerations of a motion. If `sure`, they include those between the
  * samples.
@@ -24,9 +24,9 @@ const LAWS = {quintic, trapezoidal, linear};
 
 /**
  * Computes the motion for the current settings: the findings of `record`, the times, the joint
- * values, the positions of the tool, where the path passes the via point, the samples after which
- * the curves break, a function that returns the pose at a time, and the times at which an
- * acceleration may jump.
+ * values, the positions of the tool, the point of the path nearest to the via point, the samples
+ * after which the curves break, a function that returns the pose at a time, and the times at which
+ * an acceleration may jump.
  * @param {MotionPage} data
  * @param {Asked} state
  */
@@ -127,8 +127,8 @@ export function motions(data, state) {
 }
 
 /**
- * The place of the path nearest to the via point, also between the samples; null if there is no
- * path.
+ * Returns the point of the path that is nearest to the via point, which may lie between samples, or
+ * null if there is no path.
  * @param {MotionPage} data
  * @param {PagePose} via
  * @param {(x: number) => PagePose} poseAt

@@ -37,8 +37,8 @@ export const within = (arm, q) =>
   });
 
 /**
- * Which of some joints is nearest to one of its limits, to which one (0 lower, 1 upper), and how
- * far it is from it.
+ * Returns the joint that is nearest to one of its limits, that limit (0 lower, 1 upper), and the
+ * distance from it.
  * @param {ArmData} arm
  * @param {number[]} q
  * @param {number[]} joints  at least one

@@ -31,7 +31,7 @@ export function camera([azimuth, elevation], corners, box) {
 }
 
 /**
- * The same for a picture in which these perpendicular unit vectors point to the right and up.
+ * The same camera, for the perpendicular unit vectors that point right and up in the picture.
  * @param {Point} right
  * @param {Point} up
  * @param {Point[]} corners

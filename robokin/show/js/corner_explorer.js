@@ -1,6 +1,6 @@
-// The corner of a blended motion, close up, with a ring that pulls the path away from via: how far
-// the tool cuts the corner, and how hard the joints work for it. The arm and its accelerations
-// stand beside it.
+// A close-up of the corner of a blended motion, with a ring that pulls the path away from the via
+// point. It shows how far the tool cuts the corner and how much the joints have to accelerate. The
+// arm and its joint accelerations are shown beside it.
 
 import {fill} from "./blanks.js";
 import {motionOf} from "./blended.js";
@@ -23,7 +23,7 @@ import {scale} from "./ticks.js";
 /** @import {Drawn, State} from "./motion_parts.js" */
 /** @import {Shown} from "./scene.js" */
 
-const ORDER = 2; // the panel that is shown: accelerations
+const ORDER = 2; // the order of the derivative that the panel shows: accelerations
 
 /**
  * @param {HTMLElement} root
@@ -51,7 +51,7 @@ export function cornerExplorer(root, data) {
     element("div", {class: "rk-row"}, element("div", {}, stage.says, stage.hint), parts.copy),
   );
   stage.handles.set([ring]);
-  state.time = state.duration / 2; // the tool is in the corner
+  state.time = state.duration / 2; // the tool is at the corner
   const opening = motionOf(data, state);
   /** @type {?{drawn: Drawn, arms: Shown[]}} */
   let shown = null;
@@ -90,7 +90,7 @@ export function cornerExplorer(root, data) {
 }
 
 /**
- * The line of sentences above the picture, which are also its name.
+ * Creates the line of text above the picture, which is also the picture's accessible name.
  * @param {HTMLCanvasElement} canvas
  * @param {MotionPage["words"]} words
  */
@@ -109,7 +109,7 @@ function toldBeside(canvas, {closeUp}) {
 }
 
 /**
- * The ring that moves the middle of the path. It stands between the path and via.
+ * The ring that moves the middle of the path. It is between the path and the via point.
  * @param {MotionPage} data
  * @param {State} state
  * @param {CornerAt} corner
@@ -125,7 +125,7 @@ function ringOf(
   const kind = () => corners[state.corner];
   /** @type {(blend: number) => void} */
   const take = blend => {
-    // rounded, so that the numbers belong to the blend that is shown
+    // rounded, so that all numbers are for the displayed value of the blend
     state.blend = +Math.min(Math.max(blend, low), high).toFixed(decimals);
   };
   return {
@@ -149,7 +149,7 @@ function ringOf(
 }
 
 /**
- * A small picture of the whole arm, which the reader can turn.
+ * A small picture of the whole arm. The reader can turn the view.
  * @param {MotionPage} data
  * @param {() => void} ask
  */
@@ -167,8 +167,8 @@ function armPicture(data, ask) {
 }
 
 /**
- * The joint with the greatest acceleration; -1 if the speeds jump. Lengths do not compare with
- * angles: they count only if no joint turns.
+ * The joint with the greatest acceleration; -1 if the speeds jump. Prismatic joints count only if
+ * there are no revolute joints, since lengths cannot be compared with angles.
  * @param {MotionPage} data
  * @param {Motion} motion
  * @param {Tops} tops
@@ -184,7 +184,8 @@ function hardest({arm}, {jumps}, {values: [, accelerations]}) {
 }
 
 /**
- * How far the path is from via and how hard the joints work, each with its number in bold.
+ * Sentences about the distance of the path from the via point, the greatest acceleration and jumps
+ * in speed. The numbers of the first two are in bold.
  * @param {MotionPage} data
  * @param {Motion} motion
  * @param {Tops} tops

@@ -1,4 +1,5 @@
-// The corner of a blended motion, close up: in the plane of its two lines, with via on the right.
+// The close-up of a corner of a blended motion, in the plane of its two lines, with the via point
+// on the right.
 
 import {facing} from "./camera.js";
 import {large} from "./chooser.js";
@@ -13,7 +14,7 @@ import {placeLabels} from "./labels.js";
 /** @import {Shown} from "./scene.js" */
 /** @import {Picture} from "./stage.js" */
 
-// The distance of via from the middle of the path, as a fraction of blend * |start - 2 via + goal|
+// The distance of the path's middle from via, as a fraction of blend * |start - 2 via + goal|
 const CUTS = {parabola: 1 / 2, quintic: 3 / 8};
 const SHOWN = 0.25; // the picture has room for the parabola of this blend
 
@@ -21,8 +22,9 @@ const SHOWN = 0.25; // the picture has room for the parabola of this blend
 /** @typedef {ReturnType<typeof cornerOf>} CornerAt */
 
 /**
- * The corner at via: the directions to the right and up in its picture, the place on the path's
- * middle for a blend, the blend for a place, and the points that the picture shows for a blend.
+ * The corner at the via point: the directions that point right and up in its picture, the middle of
+ * the path for a blend, the change of the blend per metre by which the middle moves, and the points
+ * that the picture shows for a blend.
  * @param {Pick<MotionPage, "start" | "via" | "goal">} stations
  */
 export function cornerOf({start, via, goal}) {
@@ -33,7 +35,7 @@ export function cornerOf({start, via, goal}) {
   const side = plus(legs[0], right, -dot(legs[0], right)),
     wide = Math.hypot(...side),
     up = wide > 1e-9 * size ? side.map(x => x / wide) : squareTo(right)[0];
-  // how steep the two lines are in the picture
+  // the slopes of the two lines in the picture
   const slopes = legs.map(leg => {
     const along = -dot(leg, right),
       across = Math.abs(dot(leg, up));
@@ -46,7 +48,7 @@ export function cornerOf({start, via, goal}) {
     up,
     /** @type {(blend: number, corner: Corner) => Point} */
     middle: (blend, corner) => plus(via.place, right, -cut(blend, corner)),
-    /** The blend per metre. @type {(corner: Corner) => number} */
+    /** The change of the blend per metre. @type {(corner: Corner) => number} */
     perMetre: corner => 1 / cut(1, corner),
     /** @type {(blend: number, corner: Corner) => Point[]} */
     seen(blend, corner) {
@@ -87,7 +89,7 @@ export function cornerPicture(canvas, data, {right, up}, seen, ring) {
       if (!cam || !held) cam = facing(right, up, seen(), [14, 26, w - beside - 14, h - 62]);
       g.save();
       g.beginPath();
-      g.rect(0, 0, w, h - 24); // the scale stands below
+      g.rect(0, 0, w, h - 24); // the scale is drawn below
       g.clip();
       drawCorner(g, cam, data, arm);
       g.restore();
@@ -116,7 +118,7 @@ export function cornerPicture(canvas, data, {right, up}, seen, ring) {
 }
 
 /**
- * Draws the sharp corner, the path that rounds it, and the place where the path passes via.
+ * Draws the sharp corner, the path that rounds it, and the point of the path nearest to via.
  * @param {Context} g
  * @param {Camera} cam
  * @param {MotionPage} data
@@ -138,7 +140,7 @@ function drawCorner(g, {to}, {start, via, goal}, {trace = [], tail = [], near}) 
 }
 
 /**
- * Points on the sharp corner, which no label covers.
+ * Points on the sharp corner, which labels must not cover.
  * @param {MotionPage} data
  * @returns {Point[]}
  */
@@ -148,7 +150,7 @@ const between = ({start, via, goal}) =>
   );
 
 /**
- * Draws a length of 1, 2 or 5 times a power of ten.
+ * Draws a scale bar. Its length is 1, 2 or 5 times a power of ten.
  * @param {Context} g
  * @param {Camera} cam
  * @param {Unit} unit

@@ -27,7 +27,7 @@ const HEAD = 22, // px: the height of the name above a plot
  *
  * @param {HTMLCanvasElement} canvas
  * @param {number[][]} patterns  the dashes of the joints' lines
- * @param {string} [unit]  the unit of the common axis, if this is not the time
+ * @param {string} [unit]  the unit of the horizontal axis, if it does not show time
  */
 export function curvesView(canvas, patterns, unit = "s") {
   let span = [0, 1, 0, 1]; // left, width, first and last time

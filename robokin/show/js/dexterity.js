@@ -35,7 +35,7 @@ export function jacobian(chain, q) {
 export function jointSpeeds(chain, q, velocity) {
   const rows = jacobian(chain, q).map((row, i) => [...row, velocity[i]]);
   for (let k = 0; k < rows.length; k++) {
-    // Gauss-Jordan elimination; of the remaining rows the one with the largest pivot is next
+    // Gauss-Jordan elimination with partial pivoting
     const next = rows.reduce(
       (best, row, i) => (i > k && Math.abs(row[k]) > Math.abs(rows[best][k]) ? i : best),
       k,

@@ -1,5 +1,5 @@
-// The explorer of an elbow: the reader drags the point that an arm carries, in the plane in which
-// the arm bends, and the triangle of upper arm, forearm and the line to the point follows. All text
+// The elbow explorer: the reader drags the point that an arm positions, in the plane in which the
+// arm bends, and the triangle of upper arm, forearm and the line to the point follows. All text
 // and the arm data come from Python (explorer_page.py: ElbowPage).
 
 import {excess, representative, within} from "./branches.js";
@@ -26,13 +26,14 @@ import {degrees, plain} from "./turns.js";
 /** @typedef {ClosedFormArm & ArmOf<ElbowInverse>} ElbowArm */
 /** @typedef {ElbowPage & {arm: ElbowArm}} ElbowExplorer */
 /**
- * The arm with one of its elbows: the joint values, the joints past a limit, the elevation of the
- * upper arm, and the angle from the upper arm to the forearm.
+ * The arm with one of its elbows: the joint values, the joints that exceed a limit, the elevation
+ * of the upper arm, and the angle from the upper arm to the forearm.
  * @typedef {{q: number[], past: number[], alpha: number, gamma: number}} Bent
  */
 /**
- * The point seen from joint 2: `u` ahead, `w` up, `d` away; the arm with both elbows, none if there
- * is no triangle, and then the reason.
+ * The position of the point relative to joint 2 (`u` horizontally, `w` vertically), the distance
+ * `d`, and the arm with both elbows. If there is no triangle, `elbows` is empty and `gap` is the
+ * reason.
  * @typedef {{u: number, w: number, d: number, elbows: Bent[], gap: ?Gap}} Triangles
  */
 /** @typedef {{r: number, z: number, elbow: number}} State  `elbow`: the chosen row */
@@ -42,7 +43,7 @@ import {degrees, plain} from "./turns.js";
  */
 
 /**
- * Builds the view in every element that waits for this id.
+ * Builds the view in every placeholder with this id.
  * @param {string} id
  * @param {ElbowExplorer} data
  */
@@ -59,7 +60,7 @@ export function trianglesAt(arm, r, z) {
   const {elbow: e} = arm.geometry,
     [u, w] = [r - e.shoulder_x, z - e.shoulder_z],
     place = [r, e.lateral, z],
-    first = r < 0 ? 2 : 0; // of the rows with the front flag of this side
+    first = r < 0 ? 2 : 0; // the first row with the front flag of this side
   const elbows = ik(arm, {place})
     .slice(first, first + 2)
     .filter(exists)
@@ -143,7 +144,7 @@ const inUnit = ({unit, controls: [{decimals}]}, lengths) =>
 const inDegrees = angle => number(degrees(angle), 1);
 
 /**
- * The cells of an elbow in the table.
+ * The cells in the table row of an elbow.
  * @param {ElbowExplorer["words"]} words
  * @param {Bent} [bent]
  */
@@ -161,7 +162,7 @@ function cells({none}, bent) {
 const flagOf = k => (k ? "\u22121" : "+1");
 
 /**
- * Says what is special about the place of the point, and which joints are past their limits; the
+ * Says what is special about the position of the point, and which joints exceed their limits. The
  * chosen elbow comes first.
  * @param {ElbowExplorer} data
  * @param {State} state

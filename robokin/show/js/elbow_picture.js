@@ -27,7 +27,7 @@ import {degrees} from "./turns.js";
 /** @import {Pen} from "./scene.js" */
 /** @import {Picture} from "./stage.js" */
 
-const WIDE = 420; // px: a narrower picture has no room for numbers beside the letters
+const WIDE = 420; // px: the labels in a narrower picture are letters without numbers
 const [HORIZON, BEND] = [44, 38]; // px: the radii of the arcs of alpha and gamma
 
 /**
@@ -96,7 +96,7 @@ const on = ([x, y], angle, radius) => [x + radius * Math.cos(angle), y - radius 
 const along = (a, b, share = 0.5) => [a[0] + share * (b[0] - a[0]), a[1] + share * (b[1] - a[1])];
 
 /**
- * Pixels that labels avoid: on the lines, and on both edges of the links.
+ * Pixels that labels must avoid, on the lines and on both edges of the links.
  * @param {Places} places
  * @param {Seen} now
  */
@@ -134,7 +134,7 @@ function drawBelow({g, cam: {to, scale}}, {arm}, {elbow}, {top, joint2, point, c
 }
 
 /**
- * Draws d and the angles or, out of reach, what is missing between the circles.
+ * Draws d and the angles or, if the point is out of reach, the gap between the circles.
  * @param {Context} g
  * @param {ElbowExplorer} data
  * @param {Seen} now
@@ -157,7 +157,7 @@ function drawAbove(g, data, now, places) {
 }
 
 /**
- * The direction from which an angle is measured, and an arc with an arrow at its end.
+ * Draws the direction from which an angle is measured, and an arc with an arrow at its end.
  * @param {Context} g
  * @param {Pixel} centre
  * @param {number} radius
@@ -178,8 +178,7 @@ function arrow(g, centre, radius, from, to, color) {
 }
 
 /**
- * Both ends of the part of the line through joint 2 and the point that is missing between the
- * circles.
+ * The ends of the gap between the circles, on the line through joint 2 and the point.
  * @param {ElbowExplorer} data
  * @param {Seen} now
  * @param {Places} places

@@ -263,10 +263,11 @@ export function least(arm, point, previous, limited = true) {
   return leastTravel(rows, previous);
 }
 
-/** @typedef {{alpha: number, joint: number}} Kink  the joint, from 0, keeps its angle at alpha */
+/** @typedef {{alpha: number, joint: number}} Kink  where a joint (an index) keeps its angle */
 
 /**
- * The alphas at which an angle may keep its previous value, NaN if there is none.
+ * The values of alpha at which a joint may keep its previous angle. A value is NaN if it does not
+ * exist.
  * @param {ThreeLeverArm} arm
  * @param {number} KO
  * @param {number} phi
@@ -305,7 +306,7 @@ export function kinks(arm, point, previous) {
     return alpha >= low && alpha <= high && Math.abs(q[joint] - previous[joint]) < KEPT;
   });
 }
-// rad: an angle that has changed by less than this has kept its value
+// rad: an angle that changes by less than this counts as unchanged
 export const KEPT = 1e-6;
 
 /**

@@ -18,20 +18,18 @@ import {degrees} from "./turns.js";
 /** @import {Kink} from "./levers.js" */
 
 /**
- * The sum S of the angle changes for one point: the range of alpha, its value, the limits of its
- * joint, the posture and its changes at this value, those of the least S, the kinks of S, and the
- * changes `at` any alpha.
+ * The sum S of the angle changes for one point.
  * @typedef {object} Costs
- * @property {number} low
- * @property {number} high
- * @property {number} alpha
- * @property {number[]} limits
- * @property {number[]} q
- * @property {number[]} changes
- * @property {number[]} best
- * @property {number[]} fewest
- * @property {Kink[]} kinks
- * @property {(alpha: number) => number[]} at
+ * @property {number} low  the lowest alpha with which the arm reaches the point
+ * @property {number} high  the highest one
+ * @property {number} alpha  the chosen value
+ * @property {number[]} limits  the limits of the joint with the angle alpha
+ * @property {number[]} q  the posture with the chosen alpha
+ * @property {number[]} changes  its angle changes
+ * @property {number[]} best  the posture with the least S
+ * @property {number[]} fewest  its angle changes
+ * @property {Kink[]} kinks  the kinks of S
+ * @property {(alpha: number) => number[]} at  returns the angle changes with any alpha
  */
 /** @typedef {(value: number) => number} Place */
 /**
@@ -107,7 +105,7 @@ export function drawCosts(canvas, look, costs) {
 }
 
 /**
- * The place of the plot on a canvas, for alpha between its limits and these values.
+ * The area of the plot on a canvas, whose axes cover the limits of alpha and these values.
  * @param {Context} g
  * @param {number} w
  * @param {number} h
@@ -131,7 +129,7 @@ function plotOf(g, w, h, limits, [least, most]) {
 }
 
 /**
- * Draws a level for each value, and its number where there is room.
+ * Draws a horizontal line for each value, and labels it if there is room.
  * @param {Plot} plot
  * @param {number[]} values
  */
@@ -160,7 +158,7 @@ function drawLevels({g, left, right, bottom, y}, values) {
 }
 
 /**
- * Draws a ring on S and one on its term at each kink.
+ * Draws two rings at each kink: one on S, and one on the term that is zero.
  * @param {Plot} plot
  * @param {Costs} costs
  */

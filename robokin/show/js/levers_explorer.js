@@ -31,8 +31,8 @@ export const explore = (id, data) =>
   waiting(id).forEach(root => leversExplorer(stageOf(root, data), data));
 
 /**
- * The reader's settings: the point, the previous posture, the free angle, the arm; the index of
- * the target, and the sum of the angle changes on the way to the targets before it.
+ * The reader's settings: the point, the previous posture, the free angle and the arm; also the
+ * index of the target, and the sum of the angle changes for all targets before it.
  * @typedef {object} State
  * @property {Point} place
  * @property {number[]} before
@@ -102,7 +102,7 @@ function leversExplorer(stage, data) {
 }
 
 /**
- * The buttons: least S, begin with this posture, begin again, copy.
+ * The buttons: least S, begin here, start again, copy.
  * @param {Stage} stage
  * @param {LeversExplorer} data
  * @param {State} state
@@ -236,7 +236,7 @@ function told({words: says, curve}, {task, turned}, {q, changes, best, fewest, l
 }
 
 /**
- * What the curve shows, for a screen reader.
+ * A description of the curve for a screen reader.
  * @param {LeversExplorer} data
  * @param {Costs} costs
  */

@@ -14,7 +14,7 @@ import {degrees, radians} from "./turns.js";
 /** @import {LeversExplorer, State} from "./levers_explorer.js" */
 
 /**
- * The handle of joint A, which changes alpha: the gripper stays.
+ * The handle of joint A, which changes alpha. The gripper stays in place.
  * @param {LeversExplorer} data
  * @param {State} state
  * @returns {Handle}
@@ -54,8 +54,8 @@ export function alphaHandle({words}, state) {
 }
 
 /**
- * The value between both ends whose place is nearest to a pixel: the best of 41 values, and then
- * twice the best of 41 between its neighbours.
+ * Returns the value between both ends whose place is nearest to a pixel. Starts with the best of 41
+ * values, and then refines the search twice, with 41 values between the neighbours of the best.
  * @param {Camera} camera
  * @param {(value: number) => Point} place
  * @param {[number, number]} ends

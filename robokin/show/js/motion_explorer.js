@@ -1,5 +1,5 @@
-// The motion explorer: a blended motion with stations to drag, or its corner close up. All text and
-// the arm data come from Python (explorer_page.py: MotionPage).
+// The motion explorer: a blended motion with stations to drag, or a close-up of its corner. All
+// text and the arm data come from Python (explorer_page.py: MotionPage).
 
 import {fill} from "./blanks.js";
 import {number} from "./canvas.js";

@@ -70,7 +70,7 @@ export function motionParts(stage, data, ...more) {
 }
 
 /**
- * The sliders and menus of a motion. Close up, the stations stay where they are.
+ * The sliders and menus of a motion. In a close-up, the stations cannot be moved.
  * @param {Frame} stage
  * @param {MotionPage} data
  * @param {State} state
@@ -111,7 +111,7 @@ function inputsOf(stage, {words, unit, controls, laws, corners, branches, close_
 
 /**
  * Returns a function that says whether the reader is dragging something. During a drag, only the
- * samples count, since values between them take too long to compute.
+ * samples are searched for the greatest values, since a search between them takes too long.
  * @param {Frame} stage
  */
 function holding(stage) {

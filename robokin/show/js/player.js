@@ -122,7 +122,7 @@ function furniture(data) {
   if (slider && parts.slider)
     rows[0].append(element("label", {class: "rk-long"}, slider.label, parts.slider, parts.value));
   if (menu && parts.menu) rows[0].append(element("label", {}, menu.label, parts.menu));
-  const {bases} = data.scene, // arms that stand at one place need no more width than one arm
+  const {bases} = data.scene, // arms at the same place need no more width than one arm
     apart = !!bases && new Set(bases.map(String)).size > 1,
     size = apart ? " rk-wide" : arms.length > 1 && !bases ? " rk-several" : "";
   const frame = element(

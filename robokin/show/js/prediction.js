@@ -264,8 +264,8 @@ function told(data, at, right) {
 const coded = text => text.split("`").map((part, k) => (k % 2 ? element("code", {}, part) : part));
 
 /**
- * The line of code that reports the first guess of each prediction. Those of the same lab as `own`
- * have their number, others their whole id.
+ * The line of code that reports the first guess of each prediction. A prediction of the same lab as
+ * `own` is listed by its number, any other by its full id.
  * @param {Made[]} made
  * @param {string} own
  */

@@ -23,18 +23,18 @@ import {aboutAxis, degrees, lengths, plain, radians} from "./turns.js";
 /** @typedef {ReturnType<typeof products>} Products */
 /** @typedef {Products & {alt: string, handles: (cam: Camera) => Box[]}} Seen */
 
-const TINY = 1e-9; // radians: closer angles are equal
+const TINY = 1e-9; // radians: angles that differ by less count as equal
 
 /**
- * Builds the view in every element that waits for this id.
+ * Builds the view in every placeholder with this id.
  * @param {string} id
  * @param {RotationPage} data
  */
 export const explore = (id, data) => waiting(id).forEach(root => rotationExplorer(root, data));
 
 /**
- * The vector v, its foot on the axis, the vector across the axis to v and that after a quarter
- * turn; q, q v and q v q* as [w, x, y, z].
+ * The vector v; its components along the axis (`foot`) and perpendicular to it (`side`), and `side`
+ * after a quarter turn about the axis; and q, q v and q v q* as [w, x, y, z].
  * @param {Pick<RotationPage, "axis" | "across" | "length">} data
  * @param {number} angle  of the rotation
  * @param {number} tilt  from the axis to v
@@ -137,7 +137,7 @@ function factsOf(data, [angle, tilt], found) {
 }
 
 /**
- * Says what the two products do to v across the axis and along it.
+ * Says how the two products change v perpendicular to the axis and along it.
  * @param {RotationPage} data
  * @param {State} state
  * @param {ReturnType<typeof factsOf>} facts

@@ -100,7 +100,7 @@ function drawCircle(g, {to}, now) {
   stroke(g, circle, colors.rim, 1.2);
   for (const radius of radii) stroke(g, radius, colors.rim, 1, [2, 3]);
   stroke(g, drop, colors.near, 1.6, [2, 3]);
-  /** A spiral, so that a second turn is seen. @param {number} turn */
+  /** A spiral, so that a second turn is visible. @param {number} turn */
   const spiral = turn => 0.4 + turn / 60;
   stroke(g, arc(0, angle / 2, spiral), colors.near, 3);
   stroke(g, arc(angle / 2, angle, spiral), colors.accent, 3);

@@ -171,7 +171,7 @@ function arranged(scene, space, count, width, height) {
 const inside = ([x, y, w, h]) => [x + 20, y + 28, Math.max(1, w - 40), Math.max(1, h - 54)];
 
 /**
- * The fixed surroundings: the coordinate axes of the grid, a function that returns a point of the
+ * The fixed surroundings: the coordinate axes of the grid, a function that returns a point on the
  * floor, and the points that must be visible, including their shadows. The rest of the floor may be
  * outside the picture.
  * @param {Scene} scene

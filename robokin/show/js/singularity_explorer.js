@@ -33,7 +33,7 @@ import {degrees} from "./turns.js";
 /** @typedef {[place: number, miss: number]} State  in mm: along the line, and beside the pose */
 /** @typedef {(k: number, value: number) => void} Change  changes the place (0) or the miss (1) */
 /**
- * The posture at one place of the line, and the speed of joint 4 there in rad/s, NaN where joint 4
+ * The posture at one place on the line, and the speed of joint 4 there in rad/s, NaN where joint 4
  * is free.
  * @typedef {{q: number[], speed: number}} Passing
  */
@@ -43,12 +43,12 @@ import {degrees} from "./turns.js";
  * @typedef {Curves & {most: number, at: (place: number) => Passing}} Curve
  */
 
-const JOINT = 3, // joint 4, from 0
+const JOINT = 3, // the index of joint 4
   MM = 1e-3,
-  LARGE = 10; // steps of the handle with Shift
+  LARGE = 10; // the number of steps by which an arrow key moves the handle with Shift
 
 /**
- * Builds the view in every element that waits for this id.
+ * Builds the view in every placeholder with this id.
  * @param {string} id
  * @param {SingularityExplorer} data
  */
@@ -144,7 +144,7 @@ const onStep = ({low, high, step}, value) =>
   clamp(low + step * Math.round((value - low) / step), low, high);
 
 /**
- * A point of the line that passes the singular pose at this distance.
+ * A point on the line that passes the singular pose at this distance.
  * @param {Pick<Line, "pose" | "along" | "beside">} line
  * @param {number} place  mm
  * @param {number} miss  mm
@@ -154,9 +154,10 @@ const pointOn = ({pose, along, beside}, place, miss) =>
   plus(plus(pose.place, along, place * MM), beside, miss * MM);
 
 /**
- * The arm on the line with this miss, in mm: a function of the place in mm. With a miss the arm
- * keeps its row of `ik`. Through the singular pose it goes on with the row of the other wrist flag,
- * because joint 5 changes its sign there.
+ * Returns a function that maps a place on the line with this miss (both in mm) to the arm there. If
+ * the miss is not zero, the arm keeps its row of `ik`. Otherwise, the line leads through the
+ * singular pose, where joint 5 changes its sign. After it, the arm continues with the row of the
+ * other wrist flag.
  * @param {Line} data
  * @param {number} miss
  * @returns {(place: number) => Passing}
@@ -175,8 +176,8 @@ export function lineOf(data, miss) {
 }
 
 /**
- * Returns a function that maps a miss to its curve; the last one is kept, since only a new miss
- * changes it.
+ * Returns a function that maps a miss to its curve. It caches the last curve, which changes only
+ * with the miss.
  * @param {SingularityExplorer} data
  * @param {number[]} places  mm
  * @returns {(miss: number) => Curve}

@@ -71,7 +71,7 @@ function followFinger(node) {
         if (finger === held) finger = null;
       });
     });
-  // only what the browser does with the finger is undone, not what keys and scripts do
+  // undo only the changes that the browser makes during the touch, not those by keys and scripts
   const undo = (/** @type {Event} */ event) => {
     if (!finger || !event.isTrusted) return;
     if (finger.drags === null) finger.under = +node.value;

@@ -232,7 +232,7 @@ function markTarget({scene}, {rotation, place}, {scene: {things}, words: {target
 }
 
 /**
- * How far the watched joint that is nearest to a limit is from it, as a sentence.
+ * Says how far the watched joint nearest to one of its limits is from this limit.
  * @param {TargetExplorer} data
  * @param {number[]} q
  */

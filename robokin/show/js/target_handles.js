@@ -14,7 +14,7 @@ import {aboutAxis, degrees, normal, radians, rollPitchYaw, rotationOf} from "./t
 /** @import {ArmData, TargetPage, With} from "./page.js" */
 /** @import {Target} from "./target_explorer.js" */
 
-const ALONG = 0.9999; // cosine of an angle to the line of sight that counts as none
+const ALONG = 0.9999; // directions count as parallel if the cosine of their angle is greater
 
 /**
  * The page data that the handles need.

@@ -1,4 +1,4 @@
-// The zone of a SCARA, seen from above. things/zone.py has its data.
+// The zone of a SCARA, seen from above. Its data are defined in things/zone.py.
 
 import {clear, colors, jointColor, polygon, stroke} from "./canvas.js";
 

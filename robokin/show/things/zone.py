@@ -1,4 +1,4 @@
-"""The zone of a SCARA: where its tool can be, seen from above."""
+"""The zone of a SCARA, which is the area that its tool can reach, seen from above."""
 
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any, Literal, TypedDict
@@ -19,14 +19,14 @@ if TYPE_CHECKING:
     from ..scene import Scene
 
 TURN = 2 * np.pi
-STEP = 5 * deg  # at most, between two points of an arc
-WIDTH = 2.0  # of a line
+STEP = 5 * deg  # the largest angle between two points of an arc
+WIDTH = 2.0  # the width of a line
 MINUS = "\N{MINUS SIGN}"
 
 
 class ZoneSide(TypedDict):
-    """A side of a zone: the joint that is at its limit there, from 0 (None: the arm is stretched or
-    folded there), the dashes of its line in pixels, and points (x, y, z).
+    """A side of a zone: the index of the joint that is at its limit there, or None if the arm is
+    stretched or folded there; the dashes of its line in pixels; and its points (x, y, z).
     """
 
     joint: int | None
@@ -35,7 +35,7 @@ class ZoneSide(TypedDict):
 
 
 class PageZone(TypedDict):
-    """The sides around the zone of each elbow, in order, and labels with their points (x, y, z)."""
+    """The sides of the zone of each elbow, in order, and labels with their positions (x, y, z)."""
 
     kind: Literal["zone"]
     elbows: list[list[ZoneSide]]
@@ -44,13 +44,14 @@ class PageZone(TypedDict):
 
 @dataclass(frozen=True, init=False, eq=False)
 class Zone(Thing):
-    """The places (x, y) that the tool of a SCARA reaches while joints 1 and 2 are inside their
-    limits, as an area on the floor: one area for each elbow, which overlap where both reach. A line
-    in the colour of a joint is where that joint is at its limit. TypeError: another arm.
+    """The zone of a SCARA: the places (x, y) that its tool can reach while joints 1 and 2 are
+    inside their limits. Each elbow has an area on the floor; the areas overlap at places that both
+    elbows reach. Along a line in the colour of a joint, that joint is at its limit. Raises
+    TypeError if the arm is not a SCARA.
 
-    sides   for each elbow its sides in order: the joint at its limit, from 0, or None where the arm
-            is stretched or folded; and points (k, 3)
-    labels  texts with their points (3,)
+    sides   the sides of the area of each elbow, in order: the index of the joint at its limit, or
+            None if the arm is stretched or folded; and points (k, 3)
+    labels  texts with their positions (3,)
     """
 
     sides: tuple[tuple[tuple[int | None, Floats], ...], ...]
@@ -62,7 +63,9 @@ class Zone(Thing):
             raise TypeError(f"arm: wanted a SCARA, got {arm.name}")
         sides, labels = [], []
         for elbow in (+1, -1):
-            low, high = np.clip(np.sort(elbow * arm.limits[1]), 0, np.pi)  # how far joint 2 bends
+            low, high = np.clip(
+                np.sort(elbow * arm.limits[1]), 0, np.pi
+            )  # the range of the bend of joint 2
             if low == high:
                 continue
             near, far = elbow * low, elbow * high
@@ -104,8 +107,8 @@ class Zone(Thing):
 
 
 def _between(arm: ClosedFormArm, start: Floats, end: Floats) -> Floats:
-    """Places (k, 3) of the tool, on the floor, while one of joints 1 and 2 turns from its value in
-    `start` (2,) to that in `end` (2,).
+    """Return the places (k, 3) of the tool, projected to the floor, while joint 1 or 2 turns from
+    its value in `start` (2,) to its value in `end` (2,).
     """
     count = int(np.ceil(abs(end - start).max() / STEP)) + 1
     q = np.concatenate([np.linspace(start, end, count), np.zeros((count, 2))], axis=-1)
