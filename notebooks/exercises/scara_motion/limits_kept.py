@@ -30,7 +30,8 @@ def cases(rng: np.random.Generator) -> list[Case]:
     for sheet in SHEETS:
         limits, lengths, still = (np.array(x) for x in sheet)
         rest = still * np.where(lengths, mm, deg)
-        motions = _motions(rest, *ends(limits, lengths), lengths, rng)
+        low, high = ends(limits, lengths)
+        motions = _motions(rest, low, high, lengths, rng)
         found += [(q, limits.astype(float), lengths) for q in motions]
     return found
 
@@ -45,7 +46,7 @@ def _motions(
 
     unit = np.where(lengths, mm, deg)
     found = [np.tile(rest, (3, 1))]
-    for joint in np.argsort(~lengths, kind="stable"):  # lengths first
+    for joint in map(int, np.argsort(~lengths, kind="stable")):  # lengths first
         for limit, side in ((low[joint], -1), (high[joint], 1)):
             # exact only at 0, since converting a limit rounds it
             edge = float(limit) - side * 1e-7 * (limit != 0)
@@ -54,7 +55,10 @@ def _motions(
             for past in (0.5, 20.0):
                 value = float(limit + side * past * unit[joint])
                 found += [one(0, joint, value, 3), one(13, joint, value), one(24, joint, value)]
-    last, turns = int(np.flatnonzero(lengths)[-1]), np.flatnonzero(~lengths)
+    last, turns = (
+        int(np.flatnonzero(lengths)[-1]),
+        [int(joint) for joint in np.flatnonzero(~lengths)],
+    )
     for joint in turns:  # whole turns further
         found += [one(1, joint, rest[joint] + side * 4 * np.pi, 3) for side in (-1, 1)]
     for sample in (10, 12):  # one is a fifth or tenth sample, the other a third one
