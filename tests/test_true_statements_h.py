@@ -194,7 +194,9 @@ def test_the_least_heights_of_via_are_as_stated():
 
 def test_the_least_blend_is_the_share_of_the_time_below_the_lowest_height():
     text = flat("05", "blend-look")
-    samples, least = numbers(r"the two numbers (\d+) and (\S+): without a blend", text)
+    samples, least = numbers(
+        r"`fraction = 0`: (\d+) of 1001 are past the limit. The least blend, (\S+), is", text
+    )
     z = np.interp(np.linspace(0, 1, 1001), [0, 0.5, 1], STATIONS[:, 2])
     assert (z < DEEPEST).sum() == samples
     fine = np.interp(np.linspace(0, 1, 1_000_001), [0, 0.5, 1], STATIONS[:, 2])
