@@ -187,6 +187,34 @@ def test_point_3_becomes_the_first_when_it_is_nearer_than_point_0():
         )
 
 
+def test_way_over_the_axis_costs_the_whole_move_to_it():
+    assert "It costs the whole move from point 0 to the axis" in flat("08", "time-axis-cost")
+    places = [[-2, 0.01, 4], [-2, 0.5, 4], [0, 0, 6.5], [2, -0.01, 4]]
+    assert f"over = {places[1:]}  # m" in cells("08")["time-axis-explorer"]
+    assert f"p0={places[0]}" in cells("08")["time-axis-explorer"]
+    q = [joints_of(p) for p in places]
+    over = np.array([q[1][0], *q[2][1:]])  # joint 1 keeps its angle on the axis
+    there, on, direct = (needs(a, b, 0.2) for a, b in ((q[1], over), (over, q[3]), (q[1], q[3])))
+    assert there + on - direct == pytest.approx(there) and there > 2
+    # from p0 to the other side, the rule "a NaN costs nothing" needs more than twice the speed
+    assert "with joint 1 at more than twice its greatest speed" in flat("08", "time-axis-look")
+    moves = needs(q[0][1:], q[2][1:], 0.2) + needs(q[2][1:], q[3][1:], 0.2)
+    assert abs(q[3][0] - q[0][0]) / moves > 2 * 0.2 and moves < needs(q[0], q[3], 0.2)
+
+
+def test_another_factor_makes_another_point_the_nearest():
+    words = flat("08", "visit-other-look")
+    assert "At 1 and 1.5 it is point 0, a lure. At 2 it is point 1, and greed does as well" in words
+    for factor, first, equal in ((1, 1, False), (1.5, 1, False), (2, 2, True)):
+        changed = [("uphill = 1.5", f"uphill = {factor}")]
+        with contextlib.redirect_stdout(io.StringIO()):
+            made = run_cells("08", "visit-explorer", "visit-code", "visit-other", changed=changed)
+        measured = made["measured"]
+        assert measured[0, 1:].argmin() + 1 == first
+        few, many = made["my_nearest_first"](measured, 5), made["my_best"](measured, 5)
+        assert (len(few) == many) == equal
+
+
 def test_numbers_of_the_question_about_more_time_are_right():
     question, options, right = asked("visit_and_collect.p6")
     words = question + "".join(each.reason + each.second for each in options)

@@ -90,10 +90,11 @@ def p6_view() -> Any:
     times = np.linspace(0, 20, 401)
     tasks = [Task(L1, L2, T, [0.2] * 3, [4, 0, 2], FOUR, "visit") for T in times]
     few, many = ([len(rule(task).order) for task in tasks] for rule in (visit, best_visit))
-    both = times[np.equal(few, 4)].min()
+    last = max(T for T, count in zip(times, few, strict=True) if count == 1)
+    early = min(T for T, count in zip(times, many, strict=True) if count == 3)
     fig = figure(
-        f"Points touched within T: the best order touches three from 6.5 s on; nearest first "
-        f"touches one up to {times[np.equal(few, 1)].max():.1f} s, and all four from {both:.1f} s.",
+        f"Points touched within T: the best order touches three from {early:.1f} s on; nearest "
+        f"first touches only one up to {last:.1f} s.",
         height=2.8,
     )
     ax = fig.subplots()
