@@ -852,3 +852,6 @@ def test_unchanged_input_equals_its_copy():
     assert not answers.equal(ScaraPose((1, 2, 3), 0.3), ScaraPose((1, 2, 3), 0.4))
     assert not answers.equal(ScaraPose((1, 2, 3)), ScaraPose((1, 2, 4)))
     assert not answers.equal(ScaraPose((1, 2, 3)), np.array([1, 2, 3]))
+    ragged = [np.ones((4, 2)), np.ones((3, 2))]
+    assert answers.equal(ragged, copy.deepcopy(ragged))
+    assert not answers.equal(ragged, [ragged[0], 2 * ragged[1]])

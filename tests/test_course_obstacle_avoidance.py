@@ -48,58 +48,88 @@ def _to_the_left(c, H):
     "right", [_angle_sum, _upward, _to_the_left, lambda c, H: Outline(c).contains_point(H)]
 )
 def test_correct_point_in_polygon_tests_pass_in_every_style(right):
-    assert check("obstacle_avoidance.1", right).holds
+    """An odd number of outlines that contain H."""
+
+    def inside(outlines, H):
+        return sum(bool(right(corners, H)) for corners in outlines) % 2
+
+    assert check("obstacle_avoidance.1", inside).holds
 
 
-def _areas(c, H):
+def test_a_library_that_ignores_holes_does_not_solve_the_exercise():
+    def compound(outlines, H):
+        return Outline.make_compound_path(*map(Outline, outlines)).contains_point(H)
+
+    def any_of_them(outlines, H):
+        return any(Outline(corners).contains_point(H) for corners in outlines)
+
+    assert not check("obstacle_avoidance.1", compound).holds
+    assert check("obstacle_avoidance.1", any_of_them).mistake == "inside any outline"
+
+
+def _every_side(outlines):
+    return [side for corners in outlines for side in _sides(corners)]
+
+
+def _areas(outlines, H):
     def area(P, Q):
         return abs((P[0] - H[0]) * (Q[1] - H[1]) - (P[1] - H[1]) * (Q[0] - H[0])) / 2
 
-    x, y = c.T
-    whole = abs(x @ np.roll(y, -1) - y @ np.roll(x, -1)) / 2
-    return abs(sum(area(P, Q) for P, Q in _sides(c)) - whole) < 1e-9
+    def within(c):
+        x, y = c.T
+        whole = abs(x @ np.roll(y, -1) - y @ np.roll(x, -1)) / 2
+        return abs(sum(area(P, Q) for P, Q in _sides(c)) - whole) < 1e-9
+
+    return sum(map(within, outlines)) % 2 == 1
 
 
-def _both_ways(c, H):
-    return sum((P[1] > H[1]) != (Q[1] > H[1]) for P, Q in _sides(c)) % 2 == 1
+def _both_ways(outlines, H):
+    return sum((P[1] > H[1]) != (Q[1] > H[1]) for P, Q in _every_side(outlines)) % 2 == 1
 
 
-def _returns_early(c, H):
-    for P, Q in _sides(c):
+def _returns_early(outlines, H):
+    for P, Q in _every_side(outlines):
         if (P[1] > H[1]) != (Q[1] > H[1]):
             if H[0] < P[0] + (H[1] - P[1]) * (Q[0] - P[0]) / (Q[1] - P[1]):
                 return True
     return False
 
 
-def _winding(c, H):
+def _winding(outlines, H):
     """A test by the nonzero rule instead of the even-odd rule: the middle of a star that is drawn
     in one line counts as inside.
     """
-    z = (c - H) @ [1, 1j]
-    return abs(np.angle(np.roll(z, -1) / z).sum()) > 3
+    turn = sum(np.angle(np.divide(*((x - H) @ [1, 1j] for x in side[::-1])))
+               for side in _every_side(outlines))  # fmt: skip
+    return abs(turn) > 3
 
 
-def _strictly_convex(c, H):
-    left = [np.linalg.det([Q - P, H - P]) for P, Q in _sides(c)]
+def _strictly_convex(outlines, H):
+    left = [np.linalg.det([Q - P, H - P]) for P, Q in _every_side(outlines)]
     return min(left) > 1e-12 or max(left) < -1e-12
 
 
-def _open_upward(c, H):
+def _open_upward(outlines, H):
     odd = False
-    for P, Q in zip(c[:-1], c[1:], strict=True):
-        if (P[0] > H[0]) != (Q[0] > H[0]):
-            odd ^= H[1] < P[1] + (H[0] - P[0]) * (Q[1] - P[1]) / (Q[0] - P[0])
+    for c in outlines:
+        for P, Q in zip(c[:-1], c[1:], strict=True):
+            if (P[0] > H[0]) != (Q[0] > H[0]):
+                odd ^= H[1] < P[1] + (H[0] - P[0]) * (Q[1] - P[1]) / (Q[0] - P[0])
     return bool(odd)
 
 
-def _by_products(c, H):
+def _by_products(outlines, H):
     """A test that counts the crossings of the sides, except those at an end point of a side."""
     count = 0
-    for P, Q in _sides(c):
+    for P, Q in _every_side(outlines):
         if (P[1] - H[1]) * (Q[1] - H[1]) < 0:
             count += P[0] + (H[1] - P[1]) * (Q[0] - P[0]) / (Q[1] - P[1]) > H[0]
     return count % 2 == 1
+
+
+def _box(outlines, H):
+    corners = np.concatenate(outlines)
+    return (corners.min(0) <= H).all() and (H <= corners.max(0)).all()
 
 
 @pytest.mark.parametrize(
@@ -109,15 +139,19 @@ def _by_products(c, H):
         (_strictly_convex, "no dent allowed"),
         (_open_upward, "the closing side left out"),
         (_by_products, "a corner counts twice, or not at all"),
-        (_areas, "no dent allowed"),
         (_both_ways, "outside always"),
         (_returns_early, "any crossing"),
-        (lambda c, H: (c.min(0) <= H).all() and (H <= c.max(0)).all(), "the box around it"),
+        (_box, "the box around it"),
+        (lambda outlines, H: _upward(outlines[-1], H), "the last outline decides"),
     ],
 )
 def test_mistakes_in_point_in_polygon_tests_are_named(wrong, named):
     verdict = check("obstacle_avoidance.1", wrong)
     assert not verdict.holds and verdict.mistake == named
+
+
+def test_sums_of_areas_are_refused():
+    assert not check("obstacle_avoidance.1", _areas).holds
 
 
 @pytest.mark.parametrize("who", ["Ada", "Jonas"])
@@ -166,7 +200,9 @@ def test_path_of_strings_is_refused_and_different_numbers_print_differently():
     assert text.mistake == "another kind or shape"
     path[0, 0] += 0.01 * deg
     says = " ".join(check("obstacle_avoidance.2", path, who="Ada").says)
-    begins, stands = re.search(r"begins at \((.*?)\)°, the arm stands at \((.*?)\)°", says).groups()
+    begins, stands = re.search(
+        r"begins at \((.*?)\)°, but the arm stands at \((.*?)\)°", says
+    ).groups()
     assert begins != stands
 
 

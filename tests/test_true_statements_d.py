@@ -141,7 +141,7 @@ def test_the_middle_of_a_five_pointed_star_is_outside():
     middle = np.array([0.01, 0.02])
     for points, step, inside in ((5, 2, False), (8, 3, True)):
         corners = np.array(LAB_10.module("inside_outside")["star_of"](points, step))
-        assert LAB_10.exercises["1"].right(corners, middle) == inside
+        assert LAB_10.exercises["1"].right([corners], middle) == inside
         seen = np.unwrap(np.arctan2(*(np.vstack([corners, corners[:1]]) - middle).T[::-1]))
         assert round(abs(seen[-1] - seen[0]) / (2 * np.pi)) % 2 == inside
 

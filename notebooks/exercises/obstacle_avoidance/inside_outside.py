@@ -8,10 +8,12 @@ import numpy as np
 
 from robokin.course.exercises import in_words
 
-from .shared import MINUS, Floats, count, crossing, drawing, gap_to, sides
+from . import shared
+from .shared import MINUS, Floats, crossing, drawing, gap_to, sides
 
-__all__ = ["count", "drawing"]
-Case = tuple[Floats, Floats]
+__all__ = ["drawing"]
+Outlines = list[Floats]
+Case = tuple[Outlines, Floats]
 
 
 def star_of(points: int, step: int) -> list[tuple[float, float]]:
@@ -66,15 +68,38 @@ def cases(rng: np.random.Generator) -> list[Case]:
         (hook[::-1], [(2.5, 3.5)]),
     ]
     found = [
-        (np.array(c, dtype=float), np.array(H, dtype=float)) for c, all_H in tried for H in all_H
+        ([np.array(c, dtype=float)], np.array(H, dtype=float)) for c, all_H in tried for H in all_H
     ]
-    while len(found) < 66:
+    found[5:5] = with_holes()
+    while len(found) < 80:
         corners = rng.uniform(0, 2, (4, 2)).round(2)
         H = rng.uniform(corners.min(axis=0), corners.max(axis=0)).round(2)
         gaps = [gap_to(P, Q, H) for P, Q in sides(corners)]
         if min(gaps) > 0.02:
-            found.append((corners, H))
+            found.append(([corners], H))
     return found
+
+
+def with_holes() -> list[Case]:
+    """Shapes with several outlines: a hole, an island in a hole, two parts, parts that overlap."""
+
+    def box(low: float, high: float, x: float = 0) -> Floats:
+        return np.array([(low + x, low), (high + x, low), (high + x, high), (low + x, high)])
+
+    frame, turned = [box(0, 4), box(1, 3)], [box(0, 4), box(1, 3)[::-1]]
+    island = [box(0, 6), box(1, 5)[::-1], box(2, 4)]
+    apart, crossed = [box(0, 1), box(0, 1, 2)], [box(0, 3), box(1, 4)]
+    hole = [box(0, 4), np.array([(1, 1), (3, 1), (2, 3)], dtype=float)]
+    tried: list[tuple[Outlines, list[tuple[float, float]]]] = [
+        (frame, [(2, 1.5), (0.5, 2), (3.5, 2.5), (5, 2)]),
+        (turned, [(2, 1.5), (0.5, 2)]),
+        (frame[::-1], [(2.5, 2), (3.4, 0.5)]),
+        (island, [(3, 3.5), (1.5, 3), (4.5, 2.5), (0.5, 1.5)]),
+        (apart, [(0.5, 0.25), (1.5, 0.5), (2.5, 0.75)]),
+        (crossed, [(2, 2.5), (0.5, 0.5), (3.5, 3.5)]),
+        (hole, [(2, 2), (1.1, 2.5), (2.9, 2.5)]),
+    ]
+    return [(outlines, np.array(H, dtype=float)) for outlines, all_H in tried for H in all_H]
 
 
 def form(result: Any, case: Case) -> bool:
@@ -89,10 +114,10 @@ def form(result: Any, case: Case) -> bool:
 def law(case: Case, yours: bool, wanted: bool) -> str | None:
     if yours == wanted:
         return None
-    corners, H = case
-    crossed = count(corners, H)
+    outlines, H = case
+    crossed = count(outlines, H)
     some = "side" if crossed == 1 else "sides"
-    shape = ", ".join(f"({x:g}, {y:g})" for x, y in corners)
+    shape = " and of ".join(", ".join(f"({x:g}, {y:g})" for x, y in c) for c in outlines)
     line = (
         f"should be {wanted}: a ray from ({H[0]:g}, {H[1]:g}) to the right crosses {crossed} "
         f"{some} of {shape}"
@@ -101,6 +126,16 @@ def law(case: Case, yours: bool, wanted: bool) -> str | None:
 
 
 # --- Helpers for the wrong programs
+
+
+def count(outlines: Outlines, H: Any) -> int:
+    """The number of sides that a ray from H to the right crosses."""
+    return sum(shared.count(corners, H) for corners in outlines)
+
+
+def every_side(outlines: Outlines) -> list[tuple[Any, Any]]:
+    """The sides of all outlines."""
+    return [side for corners in outlines for side in sides(corners)]
 
 
 def left_of(P: Any, Q: Any, H: Any) -> float:
@@ -115,12 +150,12 @@ def in_rubber_band(corners: Floats, H: Floats) -> bool:
     return bool(gaps.max() < np.pi)
 
 
-def seen(corners: Floats, H: Floats) -> Floats:
+def seen(outlines: Outlines, H: Floats) -> Floats:
     """The angles under which H sees the sides, as fractions of a turn. Their sum is the number of
-    times that the shape goes round H, counter-clockwise.
+    times that the outlines go round H, counter-clockwise.
     """
-    places = np.array([complex(*(P - H)) for P in corners])
-    return np.asarray(np.angle(np.roll(places, -1) / places) / (2 * np.pi))
+    ends = np.array([[complex(*(P - H)) for P in side] for side in every_side(outlines)])
+    return np.asarray(np.angle(ends[:, 1] / ends[:, 0]) / (2 * np.pi))
 
 
 def crossing_or_end(P: Any, Q: Any, y: float) -> float:
@@ -128,16 +163,16 @@ def crossing_or_end(P: Any, Q: Any, y: float) -> float:
     return float(max(P[0], Q[0])) if P[1] == Q[1] else crossing(P, Q, y)
 
 
-def leftward(corners: Floats, H: Floats) -> tuple[Floats, Floats]:
+def leftward(outlines: Outlines, H: Floats) -> Case:
     """Mirror the shape and H, so that a ray to the left becomes one to the right."""
-    return corners * [-1, 1], H * [-1, 1]
+    return [corners * [-1, 1] for corners in outlines], H * [-1, 1]
 
 
-def upward(corners: Floats, H: Floats) -> tuple[Floats, Floats]:
+def upward(outlines: Outlines, H: Floats) -> Case:
     """As `leftward`, for a ray upwards."""
-    return corners[:, ::-1], H[::-1]
+    return [corners[:, ::-1] for corners in outlines], H[::-1]
 
 
-def downward(corners: Floats, H: Floats) -> tuple[Floats, Floats]:
+def downward(outlines: Outlines, H: Floats) -> Case:
     """As `leftward`, for a ray downwards."""
-    return leftward(*upward(corners, H))
+    return leftward(*upward(outlines, H))
