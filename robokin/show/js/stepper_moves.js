@@ -175,7 +175,8 @@ export function pathOf(loader, move, start, goal) {
     path = [tool(positions[0])],
     bends = [];
   for (let k = 0; k < last;) {
-    const next = Math.min(k + stride, last),
+    // at both ends the motors are rounded to whole pulses
+    const next = k && k < last - 1 ? Math.min(k + stride, last - 1) : k + 1,
       pieces = Math.ceil((SAMPLES * (t[next] - t[k])) / duration);
     for (let i = 1; i < pieces && stride === 1; i++)
       path.push(tool(positionsAt(move, t[k] + (i / pieces) * (t[next] - t[k]))));
