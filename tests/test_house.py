@@ -55,6 +55,7 @@ LAYERS = {
     "robokin.show.explorer": ("robokin",),
     "robokin.show.plan_explorer": (*KINEMATICS, "robokin.jobs", "robokin.show"),
     "robokin.show.motors": (*KINEMATICS, "robokin.show", "robokin.jobs.steppers"),
+    "robokin.show.paths_explorer": (*KINEMATICS, "robokin.show", "robokin.jobs.steppers"),
     "robokin.course": ("robokin",),
     "robokin.show.tour_explorer": (*KINEMATICS, "robokin.jobs", "robokin.show"),
 }

@@ -583,7 +583,7 @@ def test_rounded_positions_stay_within_half_a_pulse():
 
 def test_start_frequency_and_lost_steps_are_as_stated(capsys):
     torque, inertia, damping = said("13", "missed-code", r"M, J, b = (\S+), (\S+), (\S+) #")
-    made = run("13", "opening", "setup", "missed-code")
+    made = run("13", "missed-code")
     top = int(re.search(r"start frequency: (\d+) pulses/s", capsys.readouterr().out)[1])
     motor = made["motor"]
 

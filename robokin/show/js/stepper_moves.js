@@ -170,18 +170,24 @@ export function pathOf(loader, move, start, goal) {
     duration = durationOf(move);
   /** @type {(motors: number[]) => Point} */
   const tool = motors => origin(fk(loader.arm.chain, jointValues(loader, motors)));
-  const bends = positions.map(tool),
-    path = [bends[0]];
-  for (let k = 1; k < t.length; k++) {
-    const pieces = Math.ceil((SAMPLES * (t[k] - t[k - 1])) / duration);
-    for (let i = 1; i < pieces; i++)
-      path.push(tool(positionsAt(move, t[k - 1] + (i / pieces) * (t[k] - t[k - 1]))));
-    path.push(bends[k]);
+  const last = t.length - 1,
+    stride = Math.max(1, Math.floor(last / SAMPLES)), // the straight line has more samples
+    path = [tool(positions[0])],
+    bends = [];
+  for (let k = 0; k < last;) {
+    // at both ends the motors are rounded to whole pulses
+    const next = k && k < last - 1 ? Math.min(k + stride, last - 1) : k + 1,
+      pieces = Math.ceil((SAMPLES * (t[next] - t[k])) / duration);
+    for (let i = 1; i < pieces && stride === 1; i++)
+      path.push(tool(positionsAt(move, t[k] + (i / pieces) * (t[next] - t[k]))));
+    path.push(tool(positions[next]));
+    if (next < last) bends.push(path[path.length - 1]);
+    k = next;
   }
   let length = 0;
   for (let k = 1; k < path.length; k++) length += distance(path[k - 1], path[k]);
   const off = Math.max(...path.map(place => away(place, start, goal)));
-  return {path, bends: bends.slice(1, -1), length, off};
+  return {path, bends, length, off};
 }
 
 /**
