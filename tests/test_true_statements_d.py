@@ -277,6 +277,33 @@ def test_lost_steps_with_and_without_a_ramp_are_as_stated():
 # --- Lab 12 ---------------------------------------------------------------------------------------
 
 
+def test_first_views_jump_as_stated():
+    """An elbow is half the distance from both ends: the jump is twice its height above the line."""
+    height, low, jump = numbers(
+        r"At (\S+) m, and also at (\S+) m: the view shows a jump of (\S+) m\.", flat("12", "able")
+    )
+    heights = np.round(np.arange(-2.1, 2.105, 0.01), 2)
+    jumps = 2 * np.sqrt(np.maximum(1 - heights**2 / 4, 0))
+    near = heights[np.argsort(abs(jumps - 1), kind="stable")[:2]]
+    assert sorted(near) == [low, height] == [-height, height]
+    assert round(2 * np.sqrt(1 - height**2 / 4), 3) == jump
+    told = flat("12", "elimination-text")
+    low, high = numbers(r"heights between (\S+) m and (\S+) m,", told)
+    assert "link_2 = 0.7 " in cells("12")["elimination-view"]
+    assert [low, high] == pytest.approx([-0.3, 0.3]) and high == pytest.approx(1 - 0.7)
+    rng = np.random.default_rng(5)
+    for x, y in rng.uniform(-1.6, 1.6, (400, 2)):
+        d2 = x * x + y * y
+        if not 0.31**2 < d2 < 1.69**2:
+            continue
+        half = (d2 + 1 - 0.49) / 2
+        y2 = (y * half + np.sqrt(x * x * (d2 - half * half))) / d2
+        x2 = (half - y * y2) / x
+        other = (y * half - np.sqrt(x * x * (d2 - half * half))) / d2
+        assert y2 > other, "the formula returns the upper elbow"
+        assert (x * y2 - y * x2 > 0) == (x > 0), "which is the left one on the right of the base"
+
+
 def test_elbows_are_exchanged_on_the_stated_side():
     exercise = book.lab("two_link_code_generation").exercises["1"]
     name = r"divides by dx, and the side from the (other )?sign of the root"

@@ -816,3 +816,6 @@ def test_between_two_jumps_the_arm_misses_the_tip():
         up = np.sqrt(np.maximum(2.5**2 - elbow**2, 0))
         miss = abs(np.hypot(x - elbow, y - up) - 2.5)
         assert (miss > 1e-3).mean() > 0.9
+        jumps = np.flatnonzero(abs(np.diff(elbow)) > 0.01)
+        assert jumps.tolist() == np.flatnonzero(np.diff(np.floor(x * x))).tolist()
+    assert "It jumps wherever $x_3^2$ passes a whole number," in flat("12", "casts-drag")

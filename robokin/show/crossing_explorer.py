@@ -146,8 +146,9 @@ def _draw(
     line = np.tile(place, (len(turn), 1))
     line[:, k] = base[k] + arm.reach * np.sin(turn / 2)
     tracks = _elbows(arm, arm.ik(line)) / size
-    for track, (color, style) in zip(tracks.swapaxes(0, 1), COMPARED, strict=False):
-        sketch.ax.plot(*track.T, color=color, ls=style, lw=1.6)
+    for side, (color, style) in zip((0, 1), COMPARED, strict=False):
+        beside = base / size + (1.04, 0.96)[side] * (tracks[:, side] - base / size)
+        sketch.ax.plot(*beside.T, color=color, ls=style, lw=1.6)
     sketch.ax.plot(*(line[np.isfinite(tracks[:, 0, 0])] / size).T, color=REMARK, lw=1, ls=":")
     ring = base / size + arm.reach / size * np.stack([np.cos(turn), np.sin(turn)], axis=-1)
     sketch.ax.plot(*ring.T, color=FAINT, lw=1)

@@ -66,7 +66,7 @@ function foundAt({arm, divisor}, {tip}) {
     meets,
     formula,
     which: nearest(elbows, formula),
-    crossing: divisor === null || near ? [] : elbowsAt(arm, movedTo(arm, tip, k, 0)),
+    crossing: divisor === null ? [] : elbowsAt(arm, movedTo(arm, tip, k, 0)),
   };
 }
 
