@@ -402,8 +402,8 @@ def test_hint_and_solution_reject_a_program_that_only_improves_the_root():
         assert off(better, exact).max() < 1e-14  # matrices made by zyz do not show the error
     one, _, three = (one_line(hint) for hint in WRIST.hints)
     assert "make some matrices as my_chain makes them: `wrists(theta)` of section 5." in one
-    told = "In a matrix from zyz, small entries have all their digits; in a matrix from a chain they"
-    assert told in one
+    told = "In a matrix from zyz, small entries have all their digits; in a matrix from a chain"
+    assert f"{told} they do not." in one
     assert "a random rotation B for each pair. The product B.T @ (B @ h) is h with" in three
     lines = [line for line in WRIST.hints[2].split("\n") if line[:4] == "    "]
     body = "\n".join("        " + line[4:] for line in lines)
