@@ -259,7 +259,7 @@ def test_errors_after_the_fix_are_as_stated_and_equal_sharing_turns_the_joints_l
     most, down, where, there = numbers(
         r"below (\S+) down to theta = (\S+); at (\S+), where phi .* it is (\S+), and falls", words
     )
-    names = "setup table-code chain-drawing zyz-drawing zyz-code regular-code noise-code cure-code"
+    names = "table-code twins zyz-drawing zyz-code regular-code noise-code cure-code"
     made = run_cells("06", *names.split())
 
     def worst(theta):
@@ -269,7 +269,7 @@ def test_errors_after_the_fix_are_as_stated_and_equal_sharing_turns_the_joints_l
     assert max(worst(10.0**-n) for n in range(13)) < most and down == 1e-12 and where == 1e-13
     assert worst(where) == pytest.approx(there, rel=0.1)
     assert worst(1e-14) == pytest.approx(there / 10, rel=0.2)
-    assert "Sharing turns the faster joint least *now*" in flat("06", "share")
+    assert "so that the faster one is as slow as possible" in flat("06", "share")
     shares = np.linspace(-1, 2, 301)
     assert shares[np.maximum(abs(shares), abs(1 - shares)).argmin()] == pytest.approx(0.5)
 

@@ -375,7 +375,7 @@ def kinds(theta, count=60):
 
 
 def lab_06():
-    names = "setup table-code chain-drawing zyz-drawing zyz-code regular-code noise-code cure-code"
+    names = "table-code twins zyz-drawing zyz-code regular-code noise-code cure-code"
     with contextlib.redirect_stdout(io.StringIO()):
         return run_cells("06", *names.split(), "root-code")
 
@@ -401,9 +401,10 @@ def test_hint_and_solution_reject_a_program_that_only_improves_the_root():
             assert off(better, chain).max() > least and off(right, chain).max() < 1e-14
         assert off(better, exact).max() < 1e-14  # matrices made by zyz do not show the error
     one, _, three = (one_line(hint) for hint in WRIST.hints)
-    told = "make some matrices as my_chain makes them: `wrists(theta)` of section 6."
-    assert f"{told} zyz writes small entries with all their digits; a chain does not." in one
-    assert "for each pair a random rotation B. The product B.T @ (B @ h) is h with" in three
+    assert "make some matrices as my_chain makes them: `wrists(theta)` of section 5." in one
+    told = "In a matrix from zyz, small entries have all their digits; in a matrix from a chain"
+    assert f"{told} they do not." in one
+    assert "a random rotation B for each pair. The product B.T @ (B @ h) is h with" in three
     lines = [line for line in WRIST.hints[2].split("\n") if line[:4] == "    "]
     body = "\n".join("        " + line[4:] for line in lines)
     tried = (
@@ -418,13 +419,13 @@ def test_hint_and_solution_reject_a_program_that_only_improves_the_root():
         assert test(right) and not test(better)
         assert check("spherical_wrist.2", test).holds
     assert "a better root alone" in {name for name, _, _ in WRIST.wrongs}
-    assert "from a matrix of a chain they lose digits, from one of zyz they do not" in says(
-        "spherical_wrist", "a better root alone"
-    )
+    told = says("spherical_wrist", "a better root alone")
+    assert "In a matrix of a chain these have rounding errors of 1e-16 and lose digits" in told
+    assert "in a matrix of zyz they do not" in told
 
 
 def test_a_hundred_matrices_are_enough_to_test_wrist_programs():
-    assert "a hundred well chosen ones will do" in flat("06", "yourturn-2")
+    assert "A hundred matrices are enough if you choose them well." in flat("06", "more")
     rng = np.random.default_rng(11)
     pairs = [(np.pi / 4, 0.3), (2, -0.5), *rng.uniform(-np.pi, np.pi, (4, 2))]
     chosen = []
@@ -452,9 +453,10 @@ def test_regular_formulas_lose_digits_at_the_stated_angle():
         says("spherical_wrist", f"the regular formulas at theta = {place}")
         for place in ("0", "180 degrees")
     )
-    told = "the angles lose digits: try 1e-8 rad"
-    assert low == f"Near theta = 0 {told}, and angles as near to 180 degrees."
-    assert high == f"Near theta = 180 degrees {told} off it, and angles as near to 0."
+    told = "its angles lose digits: try 1e-8 rad"
+    assert low == f"Near theta = 0 {told}, and angles just as near to 180 degrees."
+    high_told = f"{told} less than that, and angles just as near to 0."
+    assert high == f"Near theta = 180 degrees {high_told}"
     made = lab_06()
     book_way = made["textbook_wrist"]
     for theta in (1e-8, np.pi - 1e-8):

@@ -30,8 +30,9 @@ from robokin.course import book
 def test_two_pairs_of_rows_coincide_at_the_suggested_pose():
     """The first cell rotates the tool by half a turn about z and then by a quarter turn about y."""
     typed = re.search(
-        r"type x (\S+), y (\S+), z (\S+), roll (\S+), pitch (\S+), yaw (\S+), compare rows 2 and 3",
-        flat("06", "drag-target-look"),
+        r"type x (\S+), y (\S+), z (\S+), roll (\S+), pitch (\S+), yaw (\S+), and compare rows 2 "
+        r"and 3",
+        flat("06", "target-ask"),
     )
     x, y, z, *angles = (float(word.replace("\N{MINUS SIGN}", "-")) for word in typed.groups())
     typed_rotation = Rotation.from_euler("xyz", angles, degrees=True)  # fixed axes: x, y, z in turn

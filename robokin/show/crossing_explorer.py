@@ -40,7 +40,7 @@ SAYS = {
     "is in reach.",
     "stretched": "The arm is stretched: both elbows are one.",
     "folded": "The arm is folded: both elbows are one.",
-    "tooFar": "Out of reach: the tip is {gap} beyond the stretched arm.",
+    "tooFar": "Out of reach: the tip is {gap} beyond the reach of the arm.",
     "tooNear": "Out of reach: the tip is {gap} too close to the base.",
 }
 

@@ -107,23 +107,23 @@ def too_near(given: Given, up: float, side: float, tilt: float, least: float) ->
     is_at, wanted = apart(least, given["least_distance"], 4)
     across_it = abs(np.dot(across(given["slope"], 1.0)[0], (up, side)))
     line = (
-        f"The smallest distance from a singularity on the line is {is_at}, and {wanted} are "
-        f"wanted. Your tilt is {tilt / deg:.2f}° of {given['most_tilt'] / deg:.0f}° allowed, and "
-        f"{across_it / deg:.2f}° of it are square to the line."
+        f"The smallest distance from a singularity on your line is {is_at}; it must be at least "
+        f"{wanted}. You tilt the tool by {tilt / deg:.2f}° of the {given['most_tilt'] / deg:.0f}° "
+        f"that are allowed, and the part perpendicular to the line is {across_it / deg:.2f}°."
     )
     if keeps(given, up / deg, side / deg):
-        return "deg twice", f"{line} Divided by deg once more, both tilts would do."
+        return "deg twice", f"{line} If you divide both tilts by deg once more, they are right."
     if tilt > 0.5 * given["most_tilt"] and across_it < 0.5 * tilt:
-        line += " The part along the line lets the forearm pass the tool's direction a little "
-        line += "earlier or later; only the part square to the line takes it off that direction."
+        line += " The part along the line makes the forearm pass the tool's direction a little "
+        line += "earlier or later. Only the part perpendicular to the line keeps them apart."
         return "tilted along the line", line
     if max(abs(up), abs(side)) < 1e-3:
         return "not tilted", line
     other = passage(given, -up, -side)[0]
     if other >= given["least_distance"]:
-        line += f" Tilted as far to the other side it would be {other:.4f}."
+        line += f" With the same tilt to the other side it would be {other:.4f}."
         if keeps(given, side, up):
-            line += " With up and side exchanged it would do, too."
+            line += " With up and side exchanged it would be right, too."
         return "tilted to the wrong side", line
     if keeps(given, side, up):
         line += f" With the two exchanged it would be {passage(given, side, up)[0]:.4f}."
@@ -140,18 +140,19 @@ def faults(answer: dict[str, float], given: Given) -> list[Fault]:
         return [("degrees for radians", DEGREES)] * 3
     if tilt > given["most_tilt"] + 1e-9:
         is_at, most = apart(tilt / deg, given["most_tilt"] / deg, 2)
-        found.append(("tilted too far", f"The tilt is {is_at}°, and {most}° are allowed."))
+        found.append(("tilted too far", f"The tilt is {is_at}°; at most {most}° is allowed."))
     least, fastest = passage(given, up, side)
     if np.isnan(least):
-        says = "Not every pose of the line exists: the wrist centre comes too far out. Tilt less, "
-        return [*found, ("out of reach", says + "or another way.")] + [("out of reach", "")] * 2
+        says = "Part of the line is out of reach: the wrist centre is too far away. Tilt the tool "
+        says += "less, or in another direction."
+        return [*found, ("out of reach", says)] + [("out of reach", "")] * 2
     if least < given["least_distance"] - 1e-9:
         found.append(too_near(given, up, side, tilt, least))
     speed = fastest / duration
     if speed > given["most_speed"] * (1 + 1e-9):
         is_at, most = apart(speed / deg, given["most_speed"] / deg)
-        found.append(("too fast", f"The fastest joint goes {is_at}°/s; {most}°/s are allowed."))
+        found.append(("too fast", f"One joint reaches {is_at}°/s; at most {most}°/s is allowed."))
     if duration > given["longest"] + 1e-9:
         longest, takes = apart(given["longest"], duration)
-        found.append(("too slow", f"The line may take {longest} s; yours takes {takes} s."))
+        found.append(("too slow", f"The line may take at most {longest} s; yours takes {takes} s."))
     return found

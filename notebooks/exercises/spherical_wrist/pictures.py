@@ -9,22 +9,22 @@ from robokin.show import figure, plot_postures
 from robokin.show.palette import FIRST, SECOND
 
 from .predictions import LEANING, PLACES, fastest, joint4_speeds, noise, p1, p5, p7
-from .shared import D, zyz
+from .shared import D
 
 
 def p1_view() -> str:
     bent = p1()["bent"]
-    lines = ["How far each origin is from where it was, after 90° of joint 4:"]
+    lines = ["How far each origin moves when joint 4 turns by 90°:"]
     lines += [f"frame {k}: {way:.1f} mm" for k, way in enumerate(bent)]
     return "\n".join(lines)
 
 
 def p2_view() -> str:
     size = D[5] / mm
-    lines = ["How far o − (0, 0, d6) is from the wrist centre:"]
+    lines = ["The distance of o − (0, 0, d6) from the wrist centre:"]
     for tilt in (0, 45, 90, 135, 180):
         off = 2 * size * np.sin(tilt * deg / 2)
-        lines.append(f"tool {tilt}° away from straight up: {off:.1f} mm")
+        lines.append(f"tool tilted by {tilt}° from straight up: {off:.1f} mm")
     return "\n".join(lines)
 
 
@@ -34,17 +34,9 @@ def p3_view() -> Any:
     return plot_postures(ITMO6R, LEANING, targets={"wrist centre": centre}, title=title)
 
 
-def p4_view() -> str:
-    lines = ["The third column for joint 4 at 53°, joint 5 at 30°, and joint 6 at"]
-    for psi in (20, 65, 110, 200):
-        column = zyz(53 * deg, 30 * deg, psi * deg)[:, 2]
-        lines.append(f"{psi}°: " + ", ".join(f"{x:.2f}" for x in column))
-    return "\n".join(lines)
-
-
 def p5_view() -> str:
     facts = p5()
-    lines = [f"The greatest difference of an entry from the matrix of {facts['given']}:"]
+    lines = [f"The largest difference between an entry and that of the matrix of {facts['given']}:"]
     for name in ("theta", "all", "one", "found"):
         off = facts[f"off_{name}"]
         lines.append(f"{facts[name]}: " + (f"{off:.3f}" if off > 1e-12 else "below 1e-12"))
@@ -54,10 +46,10 @@ def p5_view() -> str:
 def p6_view() -> Any:
     thetas, worst, lost = noise()
     fig = figure(
-        "Above: the worst error of an entry among 200 postures against theta. With the textbook's "
-        "formulas it grows in step with 1 / theta. With psi measured from phi it stays below "
+        "Above: the largest error of an entry in 200 postures against theta. With the textbook's "
+        "formulas it grows as 1 / theta. With psi found after undoing phi it stays below "
         "2e-15 down to theta = 1e-12; at 1e-13, where phi is set to zero, it is 2e-13, and falls "
-        "with theta. Below: from 1e-8 rad on the textbook's root gives no number for about one "
+        "with theta. Below: from 1e-8 rad on, the textbook's root gives no number for about one "
         "posture in five.",
         9,
         5,
@@ -67,12 +59,12 @@ def p6_view() -> Any:
         ax.loglog(thetas, worst[:, k], style, color=color, lw=2)
         below.plot(thetas, 100 * lost[:, k], style, color=color, lw=2)
     ax.text(2e-7, 3e-4, "textbook, where it gives a number", color=SECOND, ha="right")
-    ax.text(1e-6, 3e-14, "ψ measured from φ", color=FIRST)
+    ax.text(1e-6, 3e-14, "ψ after undoing φ", color=FIRST)
     ax.set(
-        ylabel="worst of 200 postures",
+        ylabel="largest error",
         xlim=(3, 3e-17),
         ylim=(3e-17, 20),
-        title="Near the singularity the textbook loses digits, then the number itself",
+        title="Near the singularity the textbook loses digits, then the result itself",
     )
     below.text(3e-7, 15, "textbook", color=SECOND, ha="right")
     below.set(xlabel="θ, rad", ylabel="NaN, % of 200", ylim=(-5, 50))
@@ -83,7 +75,7 @@ def p6_view() -> Any:
 
 def p7_view() -> str:
     facts = p7()
-    lines = ["From (20, 70, −60, 30, 50, 10)°, each joint alone by up to 150° to either side:"]
+    lines = ["From (20, 70, −60, 30, 50, 10)°, one joint at a time, by up to 150° to either side:"]
     for k in range(1, 7):
         low, high = facts[f"low{k}"], facts[f"high{k}"]
         span = f"{low:.3f} to {high:.3f}" if high - low > 1e-9 else f"always {low:.3f}"
@@ -93,9 +85,9 @@ def p7_view() -> str:
 
 def p8_view() -> Any:
     fig = figure(
-        "The speed of joint 4 on two lines, from 5 mm before the hit to 5 mm after it. 2 mm beside "
-        f"the hit it goes up to {fastest(2 * mm):.0f}°/s, 1 mm beside it to "
-        f"{fastest(1 * mm):.0f}°/s, and for half as long.",
+        "The speed of joint 4 on two lines, from 5 mm before the middle to 5 mm after it. It goes "
+        f"up to {fastest(2 * mm):.0f}°/s on the line 2 mm beside the singular pose, and to "
+        f"{fastest(1 * mm):.0f}°/s on the line 1 mm beside it, but for half as long.",
         5.8,
         2.4,
     )

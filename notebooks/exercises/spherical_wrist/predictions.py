@@ -60,7 +60,7 @@ def p2() -> dict[str, Any]:
     tilts = {"up": Z, "along x": X, "down": -Z}
     off = {name: float(np.linalg.norm(size * way - size * Z)) for name, way in tilts.items()}
     facts = {"size": size, "off": off["along x"], "half": size / 2}
-    facts |= {"down": off["down"], "up": off["up"]}
+    facts |= {"down": off["down"], "up": off["up"], "metres": off["along x"] * mm}
     guesses = {"the diagonal": np.sqrt(2) * size, "one leg": size, "both legs": 2 * size}
     guesses |= {"half a leg": size / 2, "no way at all": 0.0}
     return facts | {"right": nearest(off["along x"], guesses)}
@@ -81,16 +81,6 @@ def p3() -> dict[str, Any]:
     numbers |= {"x": float(centre[0]) / mm, "y": float(centre[1]) / mm}
     said = {name: f"{value:.0f}".translate(MINUS) for name, value in numbers.items()}
     return {"right": right} | said
-
-
-@cache
-def p4() -> dict[str, Any]:
-    before, after = (zyz(53.0 * deg, 30.0 * deg, psi * deg)[:, 2] for psi in (20, 110))
-    rolled = rot(2, 90 * deg)[:3, :3] @ before
-    forms = {"before": before, "after": after, "rolled": rolled, "back": -before}
-    facts = {k: ", ".join(f"{x:.2f}" for x in v + 0.0).translate(MINUS) for k, v in forms.items()}
-    names = {"rolled": "about the forearm", "before": "as before", "back": "the opposite"}
-    return facts | {"right": next(names[k] for k in names if facts[k] == facts["after"])}
 
 
 TRIPLE = 30.0, 40.0, 50.0
@@ -192,7 +182,7 @@ PLACES = np.linspace(-100, 100, 2001) * mm  # on the line of the first view
 
 
 def passed(miss: float) -> Floats:
-    """The postures (2001, 6) at PLACES of the line that passes the hit at this distance."""
+    """The postures (2001, 6) at PLACES of the line that passes the singular pose with this miss."""
     level = turned(90 * deg, Y) @ turned(180 * deg, Z)
     along, across = np.array([[0, 1, 1], [0, -1, 1]]) / np.sqrt(2)
     origins = np.array([400, 0, 200]) * mm + PLACES[:, None] * along + miss * across

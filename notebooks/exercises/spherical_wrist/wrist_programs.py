@@ -19,8 +19,8 @@ def regular(h: Floats, wrist: int) -> Floats:
 
 
 def theta_alone(h: Floats, wrist: int) -> Floats:
-    """The better root for theta, phi and psi by the regular formulas: `better_root` of the lab, and
-    the singular formulas at sin theta = 0 exactly.
+    """The better root for theta, and phi and psi by the regular formulas: `better_root` of the lab,
+    with the singular formulas at sin theta = 0 exactly.
     """
     right = mended(h, wrist)
     if singular(h):
