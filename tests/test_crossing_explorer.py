@@ -162,7 +162,7 @@ def test_places_at_the_rim_and_beyond_are_named(opened):
     for (x, y), says in {
         (1.7, 0): "The arm is stretched: both elbows are one.",
         (0, -0.3): "The arm is folded: both elbows are one.",
-        (1.5, 1.5): "Out of reach: the tip is 421.3 mm beyond the stretched arm.",
+        (1.5, 1.5): "Out of reach: the tip is 421.3 mm beyond the reach of the arm.",
         (0.1, 0): "Out of reach: the tip is 200.0 mm too close to the base.",
     }.items():
         seen = moved(shown, x, y)

@@ -579,25 +579,14 @@ def test_first_view_and_its_text_do_not_reveal_the_answer():
     assert speed not in before and f"{float(speed) / 360:.1f} turns" not in before
 
 
-<<<<<<< HEAD
 def test_stated_minimum_ratio_of_tool_speed_to_joint_speed_holds():
-    """Compare the statement with 20 000 directions of a tool that does not rotate, in the postures
-    of the cell.
+    """Compare the statement with 20 000 directions of a tool that does not rotate, on the lines of
+    the cell.
     """
-    g, said = run("06", "setup", "table-code", "near-code")
-    assert "moves by at least so many mm/s for each °/s of any joint" in sources("06")["near"]
-    told = {
-        name.strip(): float(x) for name, x in re.findall(r"^(.+?) +0\.\d+, (\S+) mm/s", said, re.M)
-    }
-    assert set(told) == {"ordinary", "wrist, near"}
-=======
-def test_stated_least_speed_of_the_tool_per_joint_speed_holds():
-    """Against every direction of a tool that does not rotate, on the lines of the cell."""
     g, said = run("06", "near-code")
     assert "each 1°/s of a joint moves the tool by at least" in sources("06")["near"]
     told = {int(m): float(x) for m, x in re.findall(r"(\d+) mm: .* (\S+) mm/s per °/s", said)}
     assert set(told) == {1, 2, 5, 10, 20, 50}
->>>>>>> lab06
     ways = np.random.default_rng(7).normal(size=(20_000, 3))
     ways /= np.linalg.norm(ways, axis=1, keepdims=True)
     velocity = np.pad(ways, ((0, 0), (0, 3)))  # of 1 m/s
