@@ -1308,6 +1308,28 @@ def test_handles_of_a_via_point_at_the_edge_of_the_scene_do_not_overlap(opened, 
         assert between[np.triu_indices(6, 1)].min() > 24, (ends, handles)
 
 
+def test_sentence_about_the_stroke_goes_where_lab_05_says(opened):
+    """At the heights and the blend that the lab states, joint 4 is inside its limits. A little
+    lower, or with a little less blend, it is not.
+    """
+    places = [(0.2, 0.3, 0.12), (0.4, 0.1, 0), (0.2, -0.2, 0.2)]
+    stations = ScaraPose(places, np.array([0, 180, 90]) * deg)
+    shown = opened(motion_explorer(SCARA, *stations, law="linear", duration=20), SCARA)
+    for blend_, height, past in (
+        (0, 40.1, True),
+        (0, 40.2, False),
+        (0.1, 28.2, True),
+        (0.1, 28.3, False),
+        (0.267, 0, True),
+        (0.268, 0, False),
+    ):
+        shown.type("blend", blend_)
+        shown.type("via z", height)
+        says = shown.look().says
+        assert ("q4 is past its limit" in says) == past, (blend_, height, says)
+    assert "The path passes 68.0 mm from via." in says
+
+
 def test_wrist_centre_is_marked_and_does_not_move_while_the_wrist_turns(opened):
     q = np.array([20, 70, -50, 30, 60, 40]) * deg
     shown = opened(joint_explorer(ITMO6R, q, wrist=True), ITMO6R)
