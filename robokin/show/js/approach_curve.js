@@ -38,8 +38,10 @@ import {scale} from "./ticks.js";
  */
 
 const MARGIN = {left: 40, right: 14, top: 50, bottom: 34}, // px
-  MM = 1e-3,
   DASH = [6, 4];
+
+/** A length in millimetres. @param {number} metres */
+const inMm = metres => 1000 * metres;
 
 /**
  * Draws the curve; without a motion, only its title.
@@ -55,7 +57,7 @@ export function drawApproach(canvas, words, shown) {
   write(g, words.curveTitle, 6, 14, colors.ink, 12, "left", "600");
   if (!shown) return null;
   const {motion, levers, gripper, least, wanted, now} = shown,
-    most = Math.max(...levers, 1.5 * wanted) / MM,
+    most = inMm(Math.max(...levers, 1.5 * wanted)),
     ticks = scale(0, most),
     plot = plotOf(g, w, h, ticks[1] * (ticks[2] - 1)),
     {left, right, top, bottom, x, y} = plot;
@@ -109,7 +111,7 @@ function plotOf(g, w, h, most) {
     top,
     bottom,
     x: share => left + (right - left) * share,
-    y: value => bottom - ((bottom - top) * value) / (most * MM),
+    y: value => bottom - ((bottom - top) * inMm(value)) / most,
   };
 }
 
@@ -149,7 +151,7 @@ function drawLegend(g, words, left) {
  */
 function drawAxes({g, left, right, top, bottom, x, y}, [low, step, count, decimals], axis) {
   for (let i = 0; i < count; i++) {
-    const py = y((low + i * step) * MM);
+    const py = y((low + i * step) / 1000);
     stroke(
       g,
       [
@@ -194,7 +196,7 @@ function drawWanted({g, left, right, y}, {levers, wanted}) {
   /** @type {(values: number[]) => number} */
   const room = values => Math.min(...values.map(value => Math.abs(value - wanted)));
   const first = room(levers.slice(0, count)) > room(levers.slice(-count)),
-    text = `${number(wanted / MM, 0)} mm`;
+    text = `${number(inMm(wanted), 0)} mm`;
   write(
     g,
     text,
