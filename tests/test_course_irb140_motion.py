@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 from conftest import NOTEBOOKS
 
-from robokin import IRB140, blend, deg, differentiate, mm, nearest, ptp
+from robokin import IRB140, Quaternion, Transform, blend, deg, differentiate, mm, nearest, ptp
 from robokin.course import book, check
 from robokin.course.questions import filled
 
@@ -93,15 +93,19 @@ def test_blend_in_the_task_matches_that_of_the_document():
 # --- Exercise 2: PTP the short way ----------------------------------------------------------------
 
 
-def _by_nearest(q0, q1, s):
-    return ptp(q0, nearest(IRB140, q1[None], q0), s)
+def _by_arrays(q0, q1, s, limits):
+    values = q1[:, None] + 2 * np.pi * np.arange(-5, 6)
+    away = np.where(
+        (values >= limits[:, :1]) & (values <= limits[:, 1:]), abs(values - q0[:, None]), np.inf
+    )
+    return ptp(q0, values[range(6), away.argmin(axis=1)], s)
 
 
-def _by_loops(q0, q1, s):
+def _by_loops(q0, q1, s, limits):
     rows = []
     for share in s:
         row = []
-        for a, b, (low, high) in zip(q0, q1, IRB140.limits, strict=True):
+        for a, b, (low, high) in zip(q0, q1, limits, strict=True):
             best = None
             for k in range(-3, 4):
                 value = b + k * 2 * np.pi
@@ -112,7 +116,7 @@ def _by_loops(q0, q1, s):
     return rows
 
 
-def _by_recursion(q0, q1, s):
+def _by_recursion(q0, q1, s, limits):
     def shifted(value, near, low, high):
         if value - near > np.pi and value - 2 * np.pi >= low or value > high:
             return shifted(value - 2 * np.pi, near, low, high)
@@ -120,26 +124,26 @@ def _by_recursion(q0, q1, s):
             return shifted(value + 2 * np.pi, near, low, high)
         return value
 
-    end = np.array([shifted(b, a, *pair) for a, b, pair in zip(q0, q1, IRB140.limits, strict=True)])
+    end = np.array([shifted(b, a, *pair) for a, b, pair in zip(q0, q1, limits, strict=True)])
     return np.outer(1 - s, q0) + np.outer(s, end)
 
 
-def _by_masks(q0, q1, s):
+def _by_masks(q0, q1, s, limits):
     values = q1 + 2 * np.pi * np.arange(-3, 4)[:, None]
-    low, high = IRB140.limits.T
+    low, high = limits.T
     travel = np.ma.masked_array(abs(values - q0), (values < low) | (values > high))
     end = values[travel.argmin(axis=0), range(6)]
     return np.stack([q0 + share * (end - q0) for share in s])
 
 
-def _by_rounding(q0, q1, s):
+def _by_rounding(q0, q1, s, limits):
     end = q1 + 2 * np.pi * np.round((q0 - q1) / (2 * np.pi))
-    end = np.where(end > IRB140.limits[:, 1], end - 2 * np.pi, end)
-    end = np.where(end < IRB140.limits[:, 0], end + 2 * np.pi, end)
+    end = np.where(end > limits[:, 1], end - 2 * np.pi, end)
+    end = np.where(end < limits[:, 0], end + 2 * np.pi, end)
     return (q0 + s[:, None] * (end - q0)).round(9)
 
 
-@pytest.mark.parametrize("answer", [_by_nearest, _by_loops, _by_recursion, _by_masks, _by_rounding])
+@pytest.mark.parametrize("answer", [_by_arrays, _by_loops, _by_recursion, _by_masks, _by_rounding])
 def test_shortest_ptp_motions_found_by_other_methods_pass(answer):
     verdict = check("irb140_motion.2", answer)
     assert verdict.holds, verdict
@@ -154,8 +158,8 @@ def test_shortest_ptp_motions_found_by_other_methods_pass(answer):
     ],
 )
 def test_too_few_turns_are_reported(most, limited, name):
-    def few(q0, q1, s):
-        low, high = IRB140.limits.T
+    def few(q0, q1, s, limits):
+        low, high = limits.T
         values = q1 + 2 * np.pi * np.array(sorted(range(-most, most + 1), key=abs))[:, None]
         fits = (values >= low) & (values <= high) | (not limited)
         end = values[np.where(fits, abs(values - q0), np.inf).argmin(axis=0), range(6)]
@@ -178,18 +182,18 @@ def test_slightly_wrong_value_is_called_nearly_right():
 
 def test_correct_motion_satisfies_its_laws():
     exercise = LAB.exercises["2"]
-    for q0, q1, s in exercise.cases:
-        end = exercise.right(q0, q1, np.array([0.0, 1.0]))
+    for q0, q1, s, limits in exercise.cases:
+        end = exercise.right(q0, q1, np.array([0.0, 1.0]), limits)
         assert (end[0] == q0).all()
         pose, wanted = IRB140.fk(end[1]).as_matrix(), IRB140.fk(q1).as_matrix()
         assert np.allclose(pose, wanted, rtol=0, atol=1e-9)
-        low, high = IRB140.limits.T
+        low, high = limits.T
         assert ((low - 1e-9 <= end) & (end <= high + 1e-9)).all()
         for k in range(-4, 5):  # no other value inside the limits is nearer to the start
             other = q1 + 2 * np.pi * k
             inside = (low <= other) & (other <= high)
             assert (~inside | (abs(other - q0) >= abs(end[1] - q0) - 1e-9)).all()
-        motion = exercise.right(q0, q1, s)
+        motion = exercise.right(q0, q1, s, limits)
         assert np.allclose(motion, ptp(q0, end[1], s), rtol=0, atol=1e-12)
 
 
@@ -212,7 +216,7 @@ def test_unknown_mistake_is_refused_but_not_named(number):
     def stranger(*case):
         if number == "1":
             return 0.2 + 0.1 * np.sin(50 * case[0]) + 0.03 * (case[1] == "quintic")
-        q0, q1, s = case
+        q0, q1, s, _ = case
         return q0 * np.cos(s)[:, None] + q1 * np.sin(3 * s)[:, None]
 
     verdict = check(f"irb140_motion.{number}", stranger)
@@ -226,11 +230,16 @@ def test_unknown_mistake_is_refused_but_not_named(number):
         ("1", lambda d, corner: [0.1, 0.2], "another kind or shape"),
         ("1", lambda d, corner: [].append(d), "returns None"),
         ("1", lambda d, corner: print(d), "prints instead of returning"),
-        ("2", lambda q0, q1, s: q0 + s @ (q1[:2] - q0), "raises an error"),
-        ("2", lambda q0, q1, s: IRB140.fk(q1), "another kind or shape"),
-        ("2", lambda q0, q1, s: _by_nearest(q0, q1, s).T, "transposed"),
-        ("2", lambda q0, q1, s: _by_nearest(q0, q1, s) / deg, "degrees for radians"),
-        ("2", lambda q0, q1, s: s[:, None] * q1, "q0 is not used"),
+        ("2", lambda q0, q1, s, _: q0 + s @ (q1[:2] - q0), "raises an error"),
+        ("2", lambda q0, q1, s, _: IRB140.fk(q1), "another kind or shape"),
+        ("2", lambda *case: _by_arrays(*case).T, "transposed"),
+        ("2", lambda *case: _by_arrays(*case) / deg, "degrees for radians"),
+        ("2", lambda q0, q1, s, _: s[:, None] * q1, "q0 is not used"),
+        (
+            "2",
+            lambda q0, q1, s, _: ptp(q0, nearest(IRB140, q1[None], q0), s),
+            "the limits of the IRB-140",
+        ),
         ("1", lambda d, corner: 0.123, "one answer to everything"),
     ],
 )
@@ -388,7 +397,9 @@ def test_answers_to_predictions_agree_with_other_methods():
 
     turns = abs(IRB140.ik(RIGHT)[ROW] - IRB140.ik(LEFT)[ROW])
     least, line = (turns / IRB140.speed_limits).max(), 20 * (speeds / IRB140.speed_limits).max()
-    assert _right("p2").startswith(f"{least:.2f} s") and least < 0.6 * line
+    question = " ".join(filled(LAB.predictions["p2"])[0].split())
+    assert _right("p2") == f"Less than {line:.2f} s, but no less than PTP." and least < 0.6 * line
+    assert f"took {line:.2f} s; PTP took {least:.2f} s" in question
 
     q0, q1 = np.zeros(6), np.zeros(6)
     q0[5], q1[5] = 350 * deg, 60 * deg
@@ -442,14 +453,33 @@ def test_nothing_outside_the_predictions_reveals_an_answer():
         for id_, cell in CELLS.items()
         if not id_.startswith("predict-")
     )
-    answers = ["0.62 s", "290", "187.5", "1.875", "91.7", "28.3", "0.1705", "3.42", "413"]
+    answers = ["0.62 s", "290", "5.06", "187.5", "1.875", "91.7", "28.3", "0.1705", "3.42", "413"]
     assert not [answer for answer in answers if answer in seen]
     assert not re.search(r"quicker|no joint keeps|doubles whenever|after the first NaN", seen)
 
 
-def test_poses_match_those_of_the_lab():
-    space = {}
-    exec("".join(CELLS["setup"]["source"]).split("row =")[0], space)
-    for name in ("start", "via", "goal", "left", "right"):
-        mine = SHARED[name.upper()].as_matrix()
+@pytest.mark.parametrize(
+    ("cell", "names"),
+    [
+        ("race", "left right"),
+        ("lin-code", "left aim"),
+        ("long-way-player", "left right"),
+        ("own-via", "start via goal"),
+        ("bezier-code", "start via goal"),
+        ("effect-view", "start via goal"),
+        ("diff-halve", "start via goal"),
+        ("diff-spike-code", "left right"),
+        ("your-turn-code", "start via goal"),
+        ("laws-numbers", "left right"),
+        ("diff-orders", "left right"),
+        ("too-much-code", "start via goal"),
+    ],
+)
+def test_every_section_uses_the_poses_of_the_exercises(cell, names):
+    text = "".join(CELLS[cell]["source"])
+    lines = re.findall(r"^turns = .*\n.* = Transform\(turns, .*$", text, re.M)
+    space = {"Quaternion": Quaternion, "Transform": Transform, "deg": deg, "mm": mm, "y_goal": -300}
+    exec(lines[-1], space)
+    for name in names.split():
+        mine = SHARED[{"aim": "right"}.get(name, name).upper()].as_matrix()
         assert np.allclose(space[name].as_matrix(), mine, rtol=0, atol=1e-15)

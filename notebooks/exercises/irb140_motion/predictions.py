@@ -1,7 +1,7 @@
 """The facts behind the predictions of irb140 motion.
 
-Objective 1: p1, p2, p3 (and p4). Objective 2: p6, p7. Objective 3: p5, p8. p9 (of objective 2) and
-p10 (of 3) are in "Deeper".
+Objective 1: p1, p3. Objective 2: p6, p7. Objective 3: p5. p2, p4 (of objective 1), p9 (of 2), p8 and
+p10 (of 3) are under "More".
 """
 
 from collections.abc import Mapping
@@ -56,7 +56,7 @@ def posture(target: Transform) -> Floats:
 
 @cache
 def along() -> Floats:
-    """The joint values on the straight line of section 2."""
+    """The joint values on the straight line from `LEFT` to `RIGHT`."""
     return follow(IRB140, IRB140.ik(lin(LEFT, RIGHT, S)), ROW)
 
 
@@ -81,7 +81,7 @@ def p1() -> dict[str, Any]:
 
 
 def per_progress() -> Floats:
-    """What the line of section 2 asks of each joint: its speed over its speed limit, if the
+    """What the line of section 1 asks of each joint: its speed over its speed limit, if the
     progress grows by 1 per second.
     """
     assert IRB140.speed_limits is not None
@@ -126,6 +126,7 @@ def p3() -> dict[str, Any]:
     guesses = {"it turns back": TO - FROM, "past the limit": short, "the end": TO}
     guesses["exchanged"] = FROM - TO
     told = {"a": FROM, "b": TO, "limit": HIGH[5] / deg, "turn": turn, "back": -turn, "short": short}
+    told["radians"] = turn * deg
     return told | {"right": closest(guesses, turn)}
 
 

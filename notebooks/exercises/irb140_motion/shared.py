@@ -32,13 +32,14 @@ def length(vector: Floats) -> float:
 D = length(P0 - 2 * P1 + P2)
 
 
-def into(end: Floats) -> Floats:
+def into(end: Floats, limits: Floats = IRB140.limits) -> Floats:
     """Move a posture into the limits by whole turns."""
-    end = end + TURN * np.maximum(np.ceil((LOW - SLACK - end) / TURN), 0)
-    inside: Floats = end - TURN * np.maximum(np.ceil((end - HIGH - SLACK) / TURN), 0)
+    low, high = limits.T
+    end = end + TURN * np.maximum(np.ceil((low - SLACK - end) / TURN), 0)
+    inside: Floats = end - TURN * np.maximum(np.ceil((end - high - SLACK) / TURN), 0)
     return inside
 
 
-def short_end(q0: Floats, q1: Floats) -> Floats:
+def short_end(q0: Floats, q1: Floats, limits: Floats = IRB140.limits) -> Floats:
     """The posture q1, each joint as near to q0 as its limits allow."""
-    return into(wrapped(q1, q0))
+    return into(wrapped(q1, q0), limits)

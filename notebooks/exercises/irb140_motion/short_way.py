@@ -11,23 +11,27 @@ from robokin.course.exercises import in_words
 from robokin.course.told import apart, floats
 from robokin.units import wrapped
 
-from .shared import HIGH, LOW, ROW, SLACK, TURN, Floats, into, short_end
+from .shared import ROW, SLACK, TURN, Floats, into, short_end
 
 __all__ = ["IRB140", "ROW", "into", "nearest", "quintic", "short_end", "wrapped"]
-Case = tuple[Floats, Floats, Floats]
+Case = tuple[Floats, Floats, Floats, Floats]
+# of another arm, in which joints 1, 4 and 6 can take two values or three
+OTHER = np.array([[-250, 250], [-60, 200], [-70, 170], [-360, 360], [-130, 130], [-300, 300]]) * deg
 HOME = [10.0, 20.0, -40.0, 5.0, 30.0, 15.0]
 
 
-def case(q0: Any, q1: Any, s: Any) -> Case:
-    return np.array(q0) * deg, np.array(q1) * deg, np.array(s, dtype=float)
+def case(q0: Any, q1: Any, s: Any, limits: Floats = IRB140.limits) -> Case:
+    return np.array(q0) * deg, np.array(q1) * deg, np.array(s, dtype=float), limits
 
 
-def one_joint(joint: int, start: float, goal: float, middle: float = 0.5) -> Case:
+def one_joint(
+    joint: int, start: float, goal: float, middle: float = 0.5, limits: Floats = IRB140.limits
+) -> Case:
     """A joint that moves alone, from start to goal in degrees."""
     q0 = np.array([0, 0, 0, 0, 30, 0.0])
     q1 = q0.copy()
     q0[joint - 1], q1[joint - 1] = start, goal
-    return case(q0, q1, [0, middle, 1])
+    return case(q0, q1, [0, middle, 1], limits)
 
 
 def cases(rng: np.random.Generator) -> list[Case]:
@@ -63,11 +67,18 @@ def cases(rng: np.random.Generator) -> list[Case]:
         case(HOME, [-60, 50, -90, -170, -40, 120], [0.2, 0.25, 0.9]),
         case([100, -30, -200, 190, 60, 370], [-160, 40, 170, -179, -60, 30], np.linspace(1, 0, 5)),
     ]
-    while len(found) < 36:
-        q0 = rng.uniform(LOW, HIGH).round(2)
-        q1 = wrapped(rng.uniform(LOW, HIGH).round(2))
+    found += [
+        one_joint(1, 170, -170, limits=OTHER),  # the short way is inside here
+        one_joint(2, 100, -170, limits=OTHER),  # 190
+        one_joint(6, 250, -50, limits=OTHER),  # 310 is outside
+        one_joint(4, 350, 10, limits=OTHER),  # 370 is outside
+    ]
+    while len(found) < 44:
+        limits = (IRB140.limits, OTHER)[len(found) % 2]
+        q0 = rng.uniform(*limits.T).round(2)
+        q1 = wrapped(rng.uniform(*limits.T).round(2))
         if (abs(abs(wrapped(q1 - q0)) - np.pi) > 0.05).all():  # at half a turn both ways are short
-            found.append((q0, q1, rng.uniform(0, 1, 7).round(3)))
+            found.append((q0, q1, rng.uniform(0, 1, 7).round(3), limits))
     return found
 
 
@@ -83,7 +94,7 @@ def form(result: Any, case: Case) -> Floats:
 
 
 def law(case: Case, yours: Floats, wanted: Floats) -> str | None:
-    q0, q1, s = case
+    q0, q1, s, limits = case
     if yours.shape != wanted.shape:
         return f"should have the shape {wanted.shape}: a row for each s, six joints in it"
     wrong = ~(abs(yours - wanted) <= 1e-6)
@@ -91,7 +102,7 @@ def law(case: Case, yours: Floats, wanted: Floats) -> str | None:
         return None
     i = int(wrong.any(axis=0).argmax())
     k = int(wrong[:, i].argmax())
-    ends = q0[i], short_end(q0, q1)[i], LOW[i], HIGH[i]
+    ends = q0[i], short_end(q0, q1, limits)[i], *limits[i]
     a, b, low, high = (round(float(x) / deg, 1) + 0.0 for x in ends)
     at, is_at = apart(wanted[k, i] / deg, yours[k, i] / deg)
     return (
@@ -116,8 +127,9 @@ def straight(q0: Floats, end: Floats, s: Floats) -> Floats:
     return motion
 
 
-def inside(q: Floats) -> Any:
-    return (q >= LOW - SLACK) & (q <= HIGH + SLACK)
+def inside(q: Floats, limits: Floats) -> Any:
+    low, high = limits.T
+    return (q >= low - SLACK) & (q <= high + SLACK)
 
 
 def one_turn_for_all(q0: Floats, q1: Floats) -> Floats:
@@ -125,9 +137,9 @@ def one_turn_for_all(q0: Floats, q1: Floats) -> Floats:
     return min(ends, key=lambda end: float(abs(end - q0).sum()))
 
 
-def one_turn_inside(q0: Floats, q1: Floats) -> Floats:
+def one_turn_inside(q0: Floats, q1: Floats, limits: Floats) -> Floats:
     """The same number of turns for all joints, so that all are inside."""
-    ends = [end for k in range(-4, 5) if inside(end := q1 + k * TURN).all()]
+    ends = [end for k in range(-4, 5) if inside(end := q1 + k * TURN, limits).all()]
     return min(ends, key=lambda end: float(abs(end - q0).sum()), default=q1)
 
 
@@ -135,15 +147,16 @@ def floored(q0: Floats, q1: Floats) -> Floats:
     return q1 + TURN * np.floor((q0 - q1) / TURN)
 
 
-def nearest_or_q1(q0: Floats, q1: Floats) -> Floats:
+def nearest_or_q1(q0: Floats, q1: Floats, limits: Floats) -> Floats:
     """The nearest values where they are inside, q1 elsewhere."""
     near = wrapped(q1, q0)
-    return np.where(inside(near), near, q1)
+    return np.where(inside(near, limits), near, q1)
 
 
-def pinned(q0: Floats, q1: Floats, s: Floats) -> Floats:
-    motion = straight(q0, short_end(q0, q1), s)
-    motion[0], motion[-1] = q0, short_end(q0, q1)
+def pinned(q0: Floats, q1: Floats, s: Floats, limits: Floats) -> Floats:
+    end = short_end(q0, q1, limits)
+    motion = straight(q0, end, s)
+    motion[0], motion[-1] = q0, end
     return motion
 
 
