@@ -263,8 +263,8 @@ def test_arm_can_be_dragged(page, address, lab):
     awake(page)
     players = [one for one in page.locator(PLAYER).all() if one.locator("canvas").count()]
     assert players
-    # views that need a kernel are disabled here
-    held = page.locator(f"{PLAYER} .rk-handle:not([inert] *)")
+    # views that need a kernel are disabled here; taps on their points do not move them
+    held = page.locator(f"{PLAYER} .rk-handle:not([inert] *, .rk-taps *)")
     slides = f"{PLAYER} :is(.rk-slide input[type=range], .rk-long input):not([inert] *)"
     held = (held if held.count() else page.locator(slides)).first
     held.scroll_into_view_if_needed()

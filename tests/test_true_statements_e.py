@@ -519,7 +519,7 @@ def test_joint_1_decides_up_to_the_stated_speed_of_the_slider():
     speeds = np.array([0.05, 0.075, 0.1, 0.125, 0.15, 0.2])
     last = [int(np.argmax(turns / np.array([v, 0.2, 0.2]))) + 1 for v in speeds]
     assert [v for v, joint in zip(speeds, last, strict=True) if joint == 1][-1] == stated
-    assert set(last) == {1, 3} and "From there on joint 3 arrives last" in flat("08", "time-look")
+    assert set(last) == {1, 3} and "Above it, joint 3 arrives last" in flat("08", "time-look")
 
 
 def test_other_elbow_exceeds_its_limit_except_at_the_workspace_boundary():
