@@ -147,7 +147,9 @@ def test_line_with_a_free_pace_gains_most_of_its_loss_and_never_beats_ptp():
     (low,) = numbers(r"at the start joint 1 moved at (\d+) % of its limit", reason)
     (turn,) = numbers(r"the same turn of (\d+)° in both", reason)
     question = one_line(asked("irb140_motion.p2")[0])
-    (lin_time,), (ptp_time,) = (numbers(p, question) for p in (r"LIN .* took (\S+) s;", r"PTP took (\S+) s"))
+    (lin_time,), (ptp_time,) = (
+        numbers(p, question) for p in (r"LIN .* took (\S+) s;", r"PTP took (\S+) s")
+    )
     s = np.linspace(0, 1, 4001)
     first, last = about([-1, 0, 0], np.pi / 2), about([0, 1, 0], np.pi / 2)
     way = Rotation.from_matrix(last @ first.T).as_rotvec()
@@ -195,7 +197,7 @@ def test_trapezoidal_law_brakes_at_full_strength_until_the_end():
 def test_quintic_corner_raises_the_tools_peak_acceleration_by_the_stated_factor():
     second = one_line(option("irb140_motion.p7", "much more").second)
     told = r"At the same blend the quintic gives the tool (\S+) times the parabola's greatest"
-    (factor,) = numbers(told + " acceleration in the corner:", second)
+    (factor,) = numbers(told + r" acceleration in the corner\.", second)
     start, via, goal = np.array([[200, 400, 200], [650, -100, 800], [300, 300, 500.0]])
     x = np.linspace(0, 1, 1001)[:, None]
 

@@ -16,9 +16,7 @@ from .shared import ROW, SLACK, TURN, Floats, into, short_end
 __all__ = ["IRB140", "ROW", "into", "nearest", "quintic", "short_end", "wrapped"]
 Case = tuple[Floats, Floats, Floats, Floats]
 # of another arm, in which joints 1, 4 and 6 can take two values or three
-OTHER = (
-    np.array([[-250, 250], [-60, 200], [-70, 170], [-360, 360], [-130, 130], [-300, 300]]) * deg
-)
+OTHER = np.array([[-250, 250], [-60, 200], [-70, 170], [-360, 360], [-130, 130], [-300, 300]]) * deg
 HOME = [10.0, 20.0, -40.0, 5.0, 30.0, 15.0]
 
 
