@@ -357,7 +357,7 @@ def test_nearest_turns_joint_6_by_at_most_half_a_turn_and_changes_where_stated()
         name: dict(zip(g["goal_turns"].tolist(), (ends - g["q_from"])[:, 5] / deg, strict=True))
         for name, ends in (("plain", g["spun_plain"]), ("near", np.array(g["spun_near"])))
     }
-    # only joint 6 turns the tool about its own axis, so its angle follows the goal up to whole turns
+    # only joint 6 turns the tool about its own axis: it follows the goal, up to whole turns
     for found in way.values():
         for k, turn in found.items():
             assert abs((turn - way["plain"][0] - k + 180) % 360 - 180) < 1e-6
