@@ -5,6 +5,7 @@ The tests read what a reader would see: the pixels of the canvases and the text 
 """
 
 import html
+import io
 import json
 import platform
 import re
@@ -16,6 +17,7 @@ import nbformat
 import numpy as np
 import pytest
 from conftest import NOTEBOOKS, awake, until
+from PIL import Image
 
 from robokin import IRB140, Transform, deg, mm, ptp
 from robokin.show import animate
@@ -256,6 +258,61 @@ def test_untrusted_notebook_shows_still_pictures(jupyter, page):
         assert box["width"] > 300 and still.evaluate("image => image.naturalWidth") > 300
     assert stored and page.locator("canvas").count() == 0, "a script of an untrusted notebook ran"
     assert page.outside == [] and page.errors == []
+
+
+def test_slider_program_that_a_reader_copies_draws_the_motion_of_its_blend(jupyter, page):
+    """The program in lab 03, pasted into an empty cell: the picture changes when the slider is
+    dragged, and is the one that Python draws for the number next to the slider.
+    """
+    lab = nbformat.read(NOTEBOOKS / "03_irb140_motion.ipynb", as_version=4)
+    [text] = [cell.source for cell in lab.cells if cell.id == "own-slider"]
+    [program] = re.findall(r"^```python\n(.*?)^```", text, re.M | re.S)
+    new = nbformat.v4
+    cells = [new.new_markdown_cell("# Mine"), new.new_code_cell("")]
+    notebook = new.new_notebook(cells=cells, metadata=lab.metadata)
+    nbformat.write(notebook, Path(jupyter.labs, "slider.ipynb"))
+    jupyter.open(page, "slider.ipynb")
+    page.get_by_text("| Idle").first.wait_for()
+    page.locator(".jp-CodeCell .cm-content").first.click()
+    page.keyboard.insert_text(program)
+    page.keyboard.press("Shift+Enter")
+    picture = page.locator(".jp-OutputArea img.widget-image")
+    picture.wait_for()
+    first = _pixels_of(picture)
+    handle = page.locator(".jp-OutputArea .noUi-handle").bounding_box()
+    x, y = handle["x"] + handle["width"] / 2, handle["y"] + handle["height"] / 2
+    page.mouse.move(x, y)
+    page.mouse.down()
+    page.mouse.move(x + 60, y, steps=3)
+    page.mouse.up()
+    shown = float(page.locator(".widget-readout").inner_text())
+    assert shown > 0.1
+    made = {}
+    exec(program, made)
+    opening = _image(made["picture"].value)
+    made["slider"].value = shown
+    wanted = _image(made["picture"].value)
+    assert (first == opening).all() and (wanted != opening).any()
+    until(lambda: np.array_equal(_pixels_of(picture), wanted), "another picture is shown", page)
+    assert page.errors == []
+
+
+def _pixels_of(picture):
+    """The pixels of an image in the page."""
+    return _image(
+        bytes(
+            picture.evaluate(
+                """async image => {
+                  const file = await fetch(image.src);
+                  return [...new Uint8Array(await file.arrayBuffer())];
+                }"""
+            )
+        )
+    )
+
+
+def _image(file):
+    return np.asarray(Image.open(io.BytesIO(file)))
 
 
 @pytest.mark.parametrize("lab", [*LABS, *COMPANIONS])

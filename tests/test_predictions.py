@@ -371,7 +371,7 @@ def test_question_in_jupyterlab_works_and_its_keys_trigger_no_notebook_commands(
     page.keyboard.press("ArrowUp")
     assert "limits" not in question.locator(".rk-answer").inner_text()
     page.keyboard.press("Enter")
-    expect(question.locator(".rk-answer")).to_contain_text("bent line in the joints")
+    expect(question.locator(".rk-answer")).to_contain_text("curve in the joints")
     question.locator(".rk-answer canvas").wait_for()
     beside.append(cell.evaluate(NEIGHBOURS))
     assert beside[0] == beside[1] and beside[0][1] and first.is_visible(), (
@@ -387,7 +387,7 @@ def test_untrusted_question_in_jupyterlab_explains_how_to_answer(jupyter, page):
     cell.scroll_into_view_if_needed()
     cell.get_by_text(ASLEEP).wait_for()
     text = cell.inner_text()
-    assert "a) None of them." in text and "bent line" not in text
+    assert "d) None of them." in text and "curve in the joints" not in text
     assert cell.locator(".rk-ask").count() == 0 and page.errors == []
 
 

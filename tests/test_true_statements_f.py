@@ -197,7 +197,7 @@ def test_trapezoidal_law_brakes_at_full_strength_until_the_end():
 def test_quintic_corner_raises_the_tools_peak_acceleration_by_the_stated_factor():
     second = one_line(option("irb140_motion.p7", "much more").second)
     told = r"At the same blend the quintic gives the tool (\S+) times the parabola's greatest"
-    (factor,) = numbers(told + " acceleration in the corner:", second)
+    (factor,) = numbers(told + r" acceleration in the corner\.", second)
     start, via, goal = np.array([[200, 400, 200], [650, -100, 800], [300, 300, 500.0]])
     x = np.linspace(0, 1, 1001)[:, None]
 

@@ -42,8 +42,8 @@ def law(case: tuple[float, str], yours: float, wanted: float) -> str | None:
             return None
         most, asked = apart(SHARES[corner] * 0.5 * D / mm, distance / mm)
         return (
-            f"should be NaN: the largest blend, 0.5, passes via at {most} mm, and {asked} mm are "
-            "asked for"
+            f"should be NaN: with the largest blend, 0.5, the tool passes via at {most} mm, and "
+            f"the task asks for {asked} mm"
         )
     should = f"should be {wanted:.4g}: in the middle of the {corner} the tool is then"
     if not 0 <= yours <= 0.5:

@@ -31,7 +31,7 @@ from .shared import HIGH, LOW, MINUS, D
 
 
 def p1_view() -> Any:
-    title = "A straight line at constant speed asks for curved joint motion"
+    title = "The tool keeps its speed, the joints do not"
     return plot_joints(IRB140, T, along(), differentiate(along(), T), title=title)
 
 
@@ -65,9 +65,7 @@ def p2_view() -> Any:
 
 
 def p3_view() -> str:
-    lines = [
-        f"Values of joint 6 at which the arm stands the same, and the turn from {FROM:g}° to each:"
-    ]
+    lines = [f"Values of joint 6 that give the same posture, and the turn from {FROM:g}° to each:"]
     for k in (-2, -1, 0, 1):
         value = TO + 360 * k
         inside = LOW[5] <= value * deg <= HIGH[5]
@@ -104,8 +102,8 @@ def p5_view() -> str:
         )
     lines.append(
         "The change of the speed stays, the quotients do not: the first belongs to the robot's "
-        "motion, the others to the method. (differentiate spreads the change over two steps: about "
-        "half the number.)"
+        "motion, the others to the method. (differentiate spreads the change over two steps, so "
+        "its quotient is about half as large.)"
     )
     return "\n".join(lines)
 
@@ -148,7 +146,7 @@ def p8_view() -> Any:
         errors(steps),
         xlabel="step h, s",
         ylabel="largest error of six joints, rad/s and rad/s²",
-        title="A step can be too small: left of the V the error is rounding",
+        title="A step can be too small: on the left, the error is rounding",
     )
     ax.axvline(0.01, color=SOFT, linewidth=1)
     ax.set(xscale="log", yscale="log")

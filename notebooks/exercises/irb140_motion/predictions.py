@@ -1,7 +1,7 @@
 """The facts behind the predictions of irb140 motion.
 
-Objective 1: p1, p3. Objective 2: p6, p7. Objective 3: p5. p2, p4 (of objective 1), p9 (of 2), p8 and
-p10 (of 3) are under "More".
+Objective 1: p1, p3. Objective 2: p6, p7. Objective 3: p5. Under "More": p2, p4 (of objective 1), p9
+(of 2), p8 and p10 (of 3).
 """
 
 from collections.abc import Mapping

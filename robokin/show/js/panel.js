@@ -99,12 +99,17 @@ export function drawPanel(ground, panel, ticks, now) {
   g.strokeStyle = colors.rim;
   g.strokeRect(left, top, right - left, bottom - top);
   drawScales(ground, panel, scales);
+  upright(g, x(now), top, bottom, colors.ink, 1.4);
   if (bottom - top >= SMALL)
     for (const note of panelWords(g, panel, ys, times, x, sides)) {
-      const [text, [px, py, , h], color, size, weight] = note;
+      const [text, [px, py, w, h], color, size, weight] = note;
+      if (Math.abs(x(now) - px - w / 2) < w / 2 + 3) {
+        // the line of the current time does not go through the text
+        g.fillStyle = colors.paper;
+        g.fillRect(px - 2, py, w + 4, h);
+      }
       write(g, text, px, py + h - 2, color, size, "left", weight);
     }
-  upright(g, x(now), top, bottom, colors.ink, 1.4);
   lines.forEach((line, k) => {
     const at = ys[k](line.now);
     if (line.faint || !(at > top - 3 && at < bottom + 3)) return;
