@@ -75,8 +75,9 @@ def cases(rng: np.random.Generator) -> list[Case]:
     ]
     while len(found) < 44:
         limits = (IRB140.limits, OTHER)[len(found) % 2]
-        q0 = rng.uniform(*limits.T).round(2)
-        q1 = wrapped(rng.uniform(*limits.T).round(2))
+        low, high = limits.T
+        q0 = rng.uniform(low, high).round(2)
+        q1 = wrapped(rng.uniform(low, high).round(2))
         if (abs(abs(wrapped(q1 - q0)) - np.pi) > 0.05).all():  # at half a turn both ways are short
             found.append((q0, q1, rng.uniform(0, 1, 7).round(3), limits))
     return found
