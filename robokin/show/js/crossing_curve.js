@@ -1,5 +1,5 @@
-// The curves below the numbers of the explorer of a crossing: the eliminated coordinate of both
-// elbows over the coordinate of the tip that changes.
+// The curves below the numbers of the crossing explorer. They plot the eliminated coordinate of
+// both elbows against the coordinate of the tip that changes.
 
 import {clear, colors, number, prepared, spot, stroke, upright, write} from "./canvas.js";
 

@@ -65,7 +65,7 @@ class Zone(Thing):
         for elbow in (+1, -1):
             low, high = np.clip(
                 np.sort(elbow * arm.limits[1]), 0, np.pi
-            )  # the range of the bend of joint 2
+            )  # the range of the absolute angle of joint 2
             if low == high:
                 continue
             near, far = elbow * low, elbow * high
