@@ -96,7 +96,7 @@ def test_page_clearances_of_random_motions_match_python(twin, arm):
 
 
 def shows(shown):
-    """Assert that the page shows what Python finds for the copied code; return the distance."""
+    """Assert that the page agrees with the copied code, run in Python; return the distance."""
     seen = shown.look()
     code = shown.code(seen)
     path, place = np.array(code["path"]), eval(re.search(r"path, (\(.*?\))\)", seen.code)[1])

@@ -511,7 +511,7 @@ def test_motion_starts_gently_and_the_slider_sets_the_mean_speed():
     assert 5 * np.sin(q2) + 4 * np.cos(q2) == pytest.approx(-2.33, abs=0.005)
 
 
-def test_joint_1_decides_up_to_the_stated_speed_of_the_slider():
+def test_joint_1_arrives_last_up_to_the_stated_speed():
     (stated,) = numbers(r"Up to (\S+) rad/s on this slider", flat("08", "time-look"))
     starts, ends = principal_postures(5, 4, [[1, 1, 1], [1, 3, 3]])
     turns = abs(ends - starts)

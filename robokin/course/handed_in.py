@@ -58,7 +58,7 @@ class HandedIn:
     broken   the ids of exercises that are checked in cells that are not valid Python, with the
              reasons
     guesses  the line of guesses copied from a page, in the last call of `report` that has one
-    strange  the other exercises that the notebook checks, which are the student's own
+    strange  the names of other exercises that the notebook checks, which the student has made
     """
 
     path: Path

@@ -25,7 +25,7 @@ WORDS_HERE: Mapping[str, str] = {
     **{name: WORDS[name] for name in ("copy", "copied")},
     "H": "H, the obstacle",
     "via": "K{k}, a via point of the gripper",
-    "leastIs": "Least distance of the levers from H:",
+    "leastIs": "Least distance of a lever from H:",
     "toLeast": "Nearest moment",
     "none": "no path",
     "where": "lever {lever}, after {percent} % of the motion",

@@ -19,7 +19,8 @@ import {clamp, distance2} from "./rows.js";
  */
 /** @typedef {{distance: number, place: Pixel}} Near  the point of a lever nearest to H, in m */
 /**
- * The least distance of a lever, or of the gripper (index 3), and where on the motion it is.
+ * The least distance of a lever or of the gripper (index 3), and the fraction of the motion at
+ * which it occurs.
  * @typedef {Near & {index: number, share: number}} Least
  */
 
@@ -46,7 +47,7 @@ function jointsOf({geometry: {levers}}, q) {
 }
 
 /**
- * The motion through these postures.
+ * Returns the motion through these postures.
  * @param {ThreeLeverArm} arm
  * @param {number[][]} path
  * @returns {Motion}
@@ -113,8 +114,8 @@ export function nearestAt(arm, motion, H, share) {
 }
 
 /**
- * The distance of the nearest lever and of the gripper at all samples, in metres, and the least of
- * both.
+ * The distances of the nearest lever and of the gripper at all samples, in metres, and the least
+ * distance of each.
  * @param {ThreeLeverArm} arm
  * @param {Motion} motion
  * @param {Point} H

@@ -82,7 +82,7 @@ export function drawCurves(canvas, data, {tip}, {tracks, meets, elbows, formula,
  * Writes the names of both elbows beside the middle of their curves.
  * @param {Context} g
  * @param {string[]} names
- * @param {Tracks | undefined} track  on the right
+ * @param {Tracks | undefined} track  the track on the right
  * @param {(u: number) => number} x
  * @param {(at: Point) => number} y
  */

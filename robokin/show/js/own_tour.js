@@ -1,4 +1,4 @@
-// The tour in the reader's own order, which the page computes: it needs no kernel.
+// The tour in the reader's own order. The page computes it without a kernel.
 
 import {fill} from "./blanks.js";
 import {toured} from "./tour_picture.js";

@@ -165,8 +165,8 @@ export function waysOf(data, goal) {
 }
 
 /**
- * The row of the path that the arm follows: the one that the reader has chosen, or the other
- * straight one, or d; -1 if there is no path.
+ * Returns the row of the path that the arm follows: the path that the reader has chosen. If it does
+ * not exist, this is the other straight path or, if there is none, path d; -1 if there is no path.
  * @param {(?Way)[]} ways
  * @param {number} wanted
  */

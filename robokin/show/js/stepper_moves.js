@@ -157,9 +157,8 @@ export function pulsesOf({positions}) {
 }
 
 /**
- * The gripper's path during a move, the places where a motor changes its speed on the way, the
- * length of the path, and its greatest distance from the straight line between two points, in
- * metres.
+ * The gripper's path during a move, the places where a motor changes its speed, the length of the
+ * path, and its greatest distance from the straight line between two points, in metres.
  * @param {Loader} loader
  * @param {Move} move
  * @param {Point} start

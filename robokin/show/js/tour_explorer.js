@@ -159,9 +159,9 @@ function draw(stage, state, answer, tours, tour, q) {
 }
 
 /**
- * Shows the sentences.
+ * Shows the sentences and the notes.
  * @param {Stage} stage
- * @param {HTMLElement} list  of the notes
+ * @param {HTMLElement} list  the list of notes
  * @param {TourExplorer["words"]} words
  * @param {string} text
  * @param {Answer} answer
