@@ -7,7 +7,8 @@ The core path is everything before the heading "More": the words of the text up 
 without formulas, the code cells with their lines, except folded cells, the predictions and the
 exercises. The script allows one minute per 170 words, one for each code cell, two for each
 prediction and twelve for each exercise. The whole lab also includes the part under "More". A gap is
-a time in minutes, before "Your turn", in which nothing moves except in predictions.
+the time, in minutes, between two moving views before "Your turn"; views in predictions do not
+count.
 
 A lab that still has the heading "Deeper (optional)" has the old shape. The old limits apply to it:
 all of its predictions and exercises count, and the time is given without and with the exercises.
@@ -58,7 +59,7 @@ class Length(NamedTuple):
 CORE = Size(words=1200, cells=12, lines=150, sections=8, predictions=5, exercises=2)
 MINUTES = {"core": 60, "whole": 90}
 SHORT = {"13_rotor": 30, "14_conveyor": 30}  # maximum minutes for the whole lab
-START = "00_start_here"  # takes at most ten minutes without its exercise
+START = "00_start_here"  # it may take at most ten minutes without its exercise
 GAP = 10  # minutes
 MOVES = re.compile(r"^(?:\w+ = )?(?:animate|(?:\w+_)?explorer)\(", re.M)
 # Remove the rules for the old shape, here and in the tests, once every lab has the new shape.

@@ -275,7 +275,7 @@ def _reads(body: Sequence[ast.stmt], sure: set[str]) -> set[str]:
             continue
         reads, writes = _globals(compile(ast.Module([statement], []), "cell", "exec"))
         found |= reads - sure
-        sure = sure | writes if isinstance(statement, SETS) else sure  # the others may not run
+        sure = sure | writes if isinstance(statement, SETS) else sure  # others may not run
     return found
 
 

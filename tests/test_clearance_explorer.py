@@ -1,5 +1,5 @@
-"""The explorer of the distance from an obstacle during a motion, in a real browser: its numbers are
-those of `clearance` and of `along`, and the hand moves the obstacle and the via points.
+"""The clearance explorer in a real browser: its numbers match `clearance` and `along`, and the
+reader can move the obstacle and the via points.
 """
 
 import re
@@ -36,20 +36,20 @@ def path_through(places, arm=ARM, start=START):
 
 
 def far(arm, q, place):
-    """The distances of a place from the levers, each as a least square: (..., 3)."""
+    """Return the distances (..., 3) of a place from the levers, by projection on each lever."""
     points = arm.points(q)
     P, way = points[..., :-1, :], np.diff(points, axis=-2)
     u = np.clip(((place - P) * way).sum(axis=-1) / (way**2).sum(axis=-1), 0, 1)
     return np.linalg.norm(P + u[..., None] * way - place, axis=-1)
 
 
-# --- The numbers ----------------------------------------------------------------------------------
+# --- Numbers --------------------------------------------------------------------------------------
 
 
 @cache
 def tasks(arm):
-    """Five hundred motions, half of them through two via points, past random obstacles: the states
-    of the page, and rows of the clearance of each lever, the distance at a moment, and S.
+    """Return 500 motions past random obstacles, half of them through two via points: the states of
+    the page, and rows with the clearance of each lever, the distance at a moment, and S.
     """
     rng, states, rows = np.random.default_rng(7), [], []
     while len(states) < 500:
@@ -69,7 +69,7 @@ def tasks(arm):
 
 
 @pytest.mark.parametrize("arm", [ARM, UNEVEN], ids=["equal", "unequal"])
-def test_page_finds_the_clearance_of_random_motions(twin, arm):
+def test_page_clearances_of_random_motions_match_python(twin, arm):
     states, wanted = tasks(arm)
     data = clearance_explorer(arm, STAND, TARGET * arm.reach, (0.5, 0.5)).data
     found = np.array(
@@ -96,7 +96,7 @@ def test_page_finds_the_clearance_of_random_motions(twin, arm):
 
 
 def shows(shown):
-    """Assert that the page shows what Python finds for the copied code; return the distance."""
+    """Assert that the page agrees with the copied code, run in Python; return the distance."""
     seen = shown.look()
     code = shown.code(seen)
     path, place = np.array(code["path"]), eval(re.search(r"path, (\(.*?\))\)", seen.code)[1])
@@ -107,20 +107,20 @@ def shows(shown):
     lever, percent = re.search(r"lever (\w\w).* after (\d+) %", where).groups()
     assert least[["OB", "BA", "AK"].index(lever)] == pytest.approx(least.min(), abs=1e-5)
     q = along(path, np.linspace(0, 1, 4001))
-    assert seen.says.startswith("All levers keep" if least.min() >= KEPT else "Too near")
+    assert seen.says.startswith("All levers stay" if least.min() >= KEPT else "Too near")
     gripper = np.hypot(*(ARM.points(q)[:, 3] - place).T).min()
     S = abs(np.diff(path, axis=0)).sum() / deg
-    told = re.search(r"as near as ([\d.]+) mm\. S = ([\d.]+)°", seen.says).groups()
+    told = re.search(r"gripper is ([\d.]+) mm\. S = ([\d.]+)°", seen.says).groups()
     assert [float(x) for x in told] == pytest.approx([gripper / mm, S], abs=0.3)
     near = far(ARM, along(path, int(percent) / 100 + np.linspace(-0.006, 0.006, 25)), place).min()
     assert near == pytest.approx(least.min(), abs=5 * mm)
     curve = shown.rk.locator(".rk-curves").get_attribute("aria-label")
-    assert f"least, {number}, at lever {lever} after {percent} %" in curve
+    assert f"distance, {number}, is at lever {lever} after {percent} %" in curve
     assert seen.says in shown.rk.locator(".rk-scene").get_attribute("aria-label")
     return least.min() / mm
 
 
-def test_page_shows_the_distance_while_letters_are_dragged(opened):
+def test_dragging_the_letters_updates_the_distance(opened):
     shown = opened(view(), ARM)
     found, pictures = [shows(shown)], [shown.look().pixels]
     for letter, way in (("K2", (-60, -70)), ("K3", (-10, 20)), ("H", (90, 60))):
@@ -132,7 +132,7 @@ def test_page_shows_the_distance_while_letters_are_dragged(opened):
             there = np.array(shown.look().handles[letter]["at"])
             assert np.linalg.norm(there - at - share * np.array(way)) < 2
         shown.page.mouse.up()
-    assert len({tuple(each) for each in pictures}) == 7, "the picture is frozen"
+    assert len({tuple(each) for each in pictures}) == 7, "the picture has not changed"
     assert max(found) > 1000 * KEPT > min(found)
     for letter in ("K2", "K3", "H"):
         shown.press(letter, "Home")
@@ -148,7 +148,7 @@ def test_keys_move_letters_by_1_and_10_cm(opened):
     shows(shown)
 
 
-def test_arm_goes_along_the_curve_and_back_to_the_nearest_moment(opened):
+def test_arm_follows_the_curve_and_a_button_returns_to_the_nearest_moment(opened):
     shown = opened(view(), ARM)
     first = shown.look()
     nearest = first.boxes["motion"]
@@ -166,7 +166,7 @@ def test_arm_goes_along_the_curve_and_back_to_the_nearest_moment(opened):
     assert (again.boxes["motion"], again.pixels) == (nearest, first.pixels)
 
 
-def test_page_says_which_point_is_out_of_reach_and_why(opened):
+def test_page_names_the_point_that_is_out_of_reach_and_says_why(opened):
     shown = opened(view(), ARM)
     shown.press("K3", *["Shift+ArrowDown"] * 9)  # (1.05, 0.3)
     shows(shown)
@@ -183,7 +183,7 @@ def test_page_says_which_point_is_out_of_reach_and_why(opened):
 
 
 @pytest.mark.parametrize("theme", ["light", "dark"])
-def test_nothing_hinders_a_screen_reader_or_weak_eyes(opened, theme):
+def test_view_has_no_accessibility_violations(opened, theme):
     shown = opened(view(), ARM)
     shown.page.emulate_media(color_scheme=theme)
     for letter in ("K2", "K3"):
@@ -208,13 +208,13 @@ def test_nothing_hinders_a_screen_reader_or_weak_eyes(opened, theme):
         (dict(obstacle=[H, H]), ValueError, "obstacle: wanted a single point"),
     ],
 )
-def test_wrong_arguments_are_refused(changes, error, says):
+def test_invalid_arguments_are_refused(changes, error, says):
     given = dict(arm=ARM, posture=START, target=K1, obstacle=H) | changes
     with pytest.raises(error, match=says):
         clearance_explorer(**given)
 
 
-def test_summary_says_what_the_still_picture_shows():
+def test_summary_describes_the_still_picture():
     near, wide = view().data["summary"], view([(0.7, 1.8), (1.0, 1.2)]).data["summary"]
     assert near.endswith("lever BA of Three levers comes as near as 0.0 mm, nearer than the 142.9 "
                          "mm to keep.")  # fmt: skip

@@ -85,7 +85,7 @@ def test_every_objective_is_practised_and_named_in_the_lab(lab, monkeypatch):
     plain = re.sub(r"[*\s]+", " ", words)
     for objective in made.objectives:
         assert objective.rstrip(".;") in plain, objective
-    if lab in SHORT[1:]:  # questions practise the objectives that have no exercise
+    if lab in SHORT[1:]:  # in a short lab, questions practise the objectives that have no exercise
         listed = re.search(r"\*\*You will be able to\*\*\n\n(.*?)\n\n", words_of(lab), re.S)[1]
         parts = re.findall(r"\((exercise 1|question in section \d)\)[;.]$", listed, re.M)
         assert len(parts) == 3 == listed.count("\n") + 1 and "exercise 1" in parts
@@ -100,7 +100,7 @@ def test_last_cell_makes_the_report_and_your_turn_refers_to_it(lab):
     """The cell uses the student's name, which an earlier cell or its own first line sets."""
     sources = ["".join(c["source"]) for c in cells(lab)]
     end = next(k for k, text in enumerate(sources) if text.startswith("## In short"))
-    if lab_sizes.old(cells(lab)):  # here the last cell of "Your turn" makes the report
+    if lab_sizes.old(cells(lab)):  # in the old shape, the last cell of "Your turn" makes the report
         assert re.search(r"^report\(who\)$", sources[end - 1], re.M)
     else:
         assert re.search(r"^report\(who\)$", sources[-1], re.M)

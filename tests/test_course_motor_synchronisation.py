@@ -54,7 +54,7 @@ def by_loops(x, y, before):
 
 
 def by_package(point, before):
-    """With the inverse of a loader without a shoulder, in the plane of the arm."""
+    """Use the inverse of a loader without a shoulder offset, in the plane of the arm."""
     x, y, z = point
     q = LOADER.ik([abs(np.hypot(x, y) - E), 0, z])[LOADER.branch(1, -1)]
     if np.isnan(q).any():
@@ -65,7 +65,7 @@ def by_package(point, before):
 
 
 def only_calls(point, before):
-    """The calls of the lab, without a thought about the shoulder."""
+    """Call the functions as in the lab and ignore the shoulder offset."""
     q = LOADER.ik(point)[LOADER.branch(1, -1)]
     return [before + shortest_turn(before, q[0]), q[1], q[2]]
 
@@ -221,7 +221,7 @@ def test_messages_about_drives_show_different_numbers_and_not_the_answer():
     assert check("motor_synchronisation.2", text, who="Ada").mistake == "another kind or shape"
 
 
-def test_view_of_the_lab_moves_the_gripper_to_the_goal_of_a_right_answer():
+def test_right_answer_moves_the_gripper_in_the_lab_view_to_the_goal():
     [path] = NOTEBOOKS.glob("11_*.ipynb")
     stored = json.loads(path.read_text(encoding="utf-8"))["cells"]
     sources = {cell["id"]: "".join(cell["source"]) for cell in stored}
@@ -234,4 +234,4 @@ def test_view_of_the_lab_moves_the_gripper_to_the_goal_of_a_right_answer():
     arrived = space["own_arm"].fk(space["own_way"][-1]).translation
     assert arrived == pytest.approx(space["own_goal"], abs=1e-9)
     assert abs(space["own_end"][0] - space["own_q"][0]) < np.pi
-    assert abs(space["own_end"][0]) > np.pi, "the shorter way passes the direction 180"
+    assert abs(space["own_end"][0]) > np.pi, "the turn does not cross 180 degrees"

@@ -79,7 +79,7 @@ def test_mistakes_in_ramps_are_named():
     for name, (start, end, seconds) in wrong.items():
         verdict = check("rotor.1", {"start": start, "end": end, "seconds": seconds}, who="Ada")
         assert verdict.mistake == name and verdict.points < 1
-    # the shortest ramp with which the motor loses no steps is too short for the weak motor
+    # the shortest ramp on which the motor loses no steps is too short for the weak motor
     edge = next(
         r
         for r in np.arange(0.02, 0.5, 0.01)

@@ -197,7 +197,7 @@ def _sample_by_sample(radius, turns, elbow, limits):
     return most
 
 
-def test_excess_found_with_the_law_of_cosines_passes():
+def test_excess_computed_with_the_law_of_cosines_passes():
     verdict = check("scara_kinematics.3", _sample_by_sample)
     assert verdict.holds, verdict
 

@@ -346,12 +346,12 @@ def _labs_arm(q, limits, lengths):
 
 
 def _some(chosen):
-    """A test of chosen samples only."""
+    """Return a function that tests only the chosen samples."""
     return lambda q, limits, lengths: _loops(chosen(q), limits, lengths)
 
 
 def _compared(within):
-    """A test that compares all values with the limits in rad and m."""
+    """Return a function that compares all values with the limits, converted to rad and m."""
     return lambda q, limits, lengths: within(q, *_in_si(limits, lengths))
 
 
@@ -406,7 +406,7 @@ def test_verdict_names_the_joint_that_is_never_tested(joint):
 
 
 @pytest.mark.parametrize("end", [0, 1])
-def test_verdict_names_the_limits_of_lengths_that_are_never_tested(end):
+def test_verdict_names_the_length_limits_that_are_never_tested(end):
     def one_side(q, limits, lengths):
         limits = limits.copy()
         limits[lengths, end] = (-9e9, 9e9)[end]

@@ -254,7 +254,7 @@ def test_traps_in_other_styles_pass():
     assert "own name" not in repr(check("visit_and_collect.3", traps("Ada"), who="Ada"))
 
 
-OPENING = [[4 * np.cos(a), 4 * np.sin(a), 2] for a in (1.0, -1.1, -1.2, -1.3)]  # nearly
+OPENING = [[4 * np.cos(a), 4 * np.sin(a), 2] for a in (1.0, -1.1, -1.2, -1.3)]  # as in lab 08
 
 
 @pytest.mark.parametrize(

@@ -1,5 +1,5 @@
-"""The explorer of two links whose tip crosses a line: the page's elbows, its formula and its jump
-are those of a second calculation, and its sentences say what a reader sees.
+"""The crossing explorer in a real browser: the elbows, the formula and its jump match independent
+calculations, and the sentences match the picture.
 """
 
 import re
@@ -20,8 +20,8 @@ FIRST = crossing_explorer(two_link(1, 1), (0.6, 0.8), divisor="x3")
 
 
 def crossed(base, tip, l1, l2):
-    """The right and the left elbow (2, 2), as points where two circles meet: along the line from
-    base to tip and across it. Source: 002, (1); lab 12.
+    """Return the right and the left elbow (2, 2): the intersections of two circles, from components
+    along and across the line from the base to the tip. Source: document 002, (1); lab 12.
     """
     way = np.subtract(tip, base)
     d2 = way @ way
@@ -30,15 +30,15 @@ def crossed(base, tip, l1, l2):
     return base + a * way + h * np.outer([1, -1], [way[1], -way[0]])
 
 
-# --- The page's own numbers -----------------------------------------------------------------------
+# --- Numbers --------------------------------------------------------------------------------------
 
 
 @pytest.mark.parametrize(
     "base, l1, l2", [((0, 0), 1, 1), ((0.2, -0.1), 1, 0.7), ((0, 0), 0.4, 0.9)]
 )
-def test_page_elbows_are_where_two_circles_meet(context, base, l1, l2):
-    """1000 tips in reach and out of it. The formula with the plus sign returns the elbow whose kept
-    coordinate is greater.
+def test_page_elbows_are_the_intersections_of_two_circles(context, base, l1, l2):
+    """Compare 1000 tips, some of which are out of reach. With the plus sign, the formula returns
+    the elbow that has the greater remaining coordinate.
     """
     arm, rng = two_link(l1, l2, base), np.random.default_rng(12)
     tips = base + (l1 + l2) * rng.uniform(-1.05, 1.05, (1000, 2))
@@ -86,7 +86,7 @@ def test_page_elbows_are_where_two_circles_meet(context, base, l1, l2):
     assert count > 4000
 
 
-# --- What a reader sees ---------------------------------------------------------------------------
+# --- View -----------------------------------------------------------------------------------------
 
 
 def moved(shown, x, y):
@@ -132,10 +132,10 @@ def test_keys_move_the_tip_and_the_code_gives_the_same_elbows(opened):
     assert numbers(seen)[:2] == pytest.approx(crossed((0, 0), (0.59, 0.89), 1, 1), abs=6e-4)
     shown.slide("x3", -9)
     shown.type("y3", 9)
-    assert shown.look().boxes == {"x3": -2.1, "y3": 2.1}, "the tip leaves the picture"
+    assert shown.look().boxes == {"x3": -2.1, "y3": 2.1}, "the tip left the picture"
 
 
-def test_formula_changes_its_elbow_where_the_tip_crosses_the_line(opened):
+def test_formula_switches_elbows_when_the_tip_crosses_the_line(opened):
     shown, told = opened(FIRST), {}
     for y in (-1.2, 0.4, 1.73):
         jump = re.compile(r"it jumps by (\d\.\d+) m at x3 = 0\.")
@@ -155,13 +155,13 @@ def test_formula_changes_its_elbow_where_the_tip_crosses_the_line(opened):
     assert sides == ["right", "left"] and "at y3 = 0." in other.look().says
 
 
-def test_places_at_the_rim_and_beyond_are_named(opened):
+def test_singular_and_unreachable_tips_are_explained(opened):
     shown = opened(crossing_explorer(two_link(1, 0.7), (-0.9, 0.2)))
     assert "formula" not in shown.rk.inner_text() and shown.look().says == ""
     assert "the two elbows meet at 4 places" in shown.look().scene
     for (x, y), says in {
-        (1.7, 0): "The arm is stretched: both elbows are one.",
-        (0, -0.3): "The arm is folded: both elbows are one.",
+        (1.7, 0): "The arm is stretched: both elbows coincide.",
+        (0, -0.3): "The arm is folded: both elbows coincide.",
         (1.5, 1.5): "Out of reach: the tip is 421.3 mm beyond the reach of the arm.",
         (0.1, 0): "Out of reach: the tip is 200.0 mm too close to the base.",
     }.items():
@@ -175,7 +175,7 @@ def test_places_at_the_rim_and_beyond_are_named(opened):
     )
 
 
-def test_picture_is_named_after_what_it_shows(opened):
+def test_accessible_name_describes_the_picture(opened):
     seen = opened(FIRST).look()
     assert seen.scene.startswith(repr(FIRST)) and seen.scene.endswith(seen.says)
     right, left = crossed((0, 0), (0.6, 0.8), 1, 1)
@@ -200,7 +200,7 @@ PLACES = (
 
 
 @pytest.mark.parametrize("width, theme", [(914, "light"), (390, "dark")])
-def test_words_on_the_picture_can_be_read_wherever_the_tip_is(browser, opened, width, theme):
+def test_labels_are_readable_wherever_the_tip_is(browser, opened, width, theme):
     with browser.new_context(
         viewport={"width": width, "height": 800}, color_scheme=theme, has_touch=width < 400
     ) as small:
@@ -217,7 +217,7 @@ def test_words_on_the_picture_can_be_read_wherever_the_tip_is(browser, opened, w
         shown.page.close()
 
 
-# --- Arms and wrong calls -------------------------------------------------------------------------
+# --- Arguments ------------------------------------------------------------------------------------
 
 
 def test_small_arm_is_shown_in_millimetres(opened):
@@ -228,7 +228,7 @@ def test_small_arm_is_shown_in_millimetres(opened):
 
 
 @pytest.mark.parametrize("arm", [SCARA, three_lever(0.3), "Two links"])
-def test_arm_without_two_links_is_refused(arm):
+def test_arm_that_is_not_two_links_is_refused(arm):
     with pytest.raises(TypeError, match="arm: wanted"):
         crossing_explorer(arm, (0.2, 0.2))
 
@@ -241,6 +241,6 @@ def test_arm_without_two_links_is_refused(arm):
         ({"divisor": "x2"}, "divisor: wanted"),
     ],
 )
-def test_wrong_arguments_are_refused(change, says):
+def test_invalid_arguments_are_refused(change, says):
     with pytest.raises(ValueError, match=says):
         crossing_explorer(**{"arm": two_link(1, 1), "tip": (0.5, 0.5), **change})

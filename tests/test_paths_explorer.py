@@ -1,5 +1,5 @@
-"""The explorer of paths: its moves are those of robokin.jobs.steppers, whose paths are measured
-here a second time; and a real browser, in which the goal is dragged.
+"""The paths explorer in a real browser: its moves match robokin.jobs.steppers, its lengths match
+independent measurements, and the reader can drag the goal.
 """
 
 import re
@@ -33,7 +33,9 @@ def view(goal=GOAL, ratio=RATIO):
 
 
 def gripper(q):
-    """The place of the gripper: rods of lengths A and B, the second one bent by beta."""
+    """Return the position of the gripper, computed from two rods of lengths A and B that meet at
+    the angle beta.
+    """
     alpha, gamma, beta = np.moveaxis(q, -1, 0)
     ahead = A * np.cos(gamma) + B * np.cos(gamma + beta - np.pi)
     height = A * np.sin(gamma) + B * np.sin(gamma + beta - np.pi)
@@ -41,7 +43,9 @@ def gripper(q):
 
 
 def measured(move, ratio, goal):
-    """Duration, length, greatest distance from the line, pulses, and the motors that reverse."""
+    """Return [duration, length, greatest distance from the line, pulses] of a move, and the motors
+    that reverse.
+    """
     t = np.union1d(np.linspace(0, move.duration, 1501), move.t)
     path = gripper(joint_values(move(t), ratio))
     way = goal - START
@@ -54,7 +58,7 @@ def measured(move, ratio, goal):
 
 
 def ways(goal, ratio=RATIO):
-    """A dict from the letters of the paths to what `measured` returns."""
+    """Return a dict that maps the letters of the paths to the results of `measured`."""
     if out_of_reach(LOADER, goal):
         return {}
     stations = counts(station_postures(LOADER, [START, goal]), ratio)
@@ -72,7 +76,7 @@ def ways(goal, ratio=RATIO):
 # --- Numbers --------------------------------------------------------------------------------------
 
 
-def test_thousand_goals_have_the_moves_of_python(twin):
+def test_page_moves_match_python_for_a_thousand_goals(twin):
     rng = np.random.default_rng(11)
     goals = rng.uniform([-0.75, -0.75, -0.05], [0.75, 0.75, 0.75], (1000, 3))
     for ratio in (RATIO, [40, 20, 20]):
@@ -96,11 +100,11 @@ def test_thousand_goals_have_the_moves_of_python(twin):
                 assert reversing == motors
                 assert found[0] == pytest.approx(numbers[0], abs=1e-9) and found[3] == numbers[3]
                 assert found[1:3] == pytest.approx(numbers[1:3], abs=2e-4)
-        assert set(letters) == {"", "abd", "acd", "ad"}, "not every kind of goal occurs"
+        assert set(letters) == {"", "abd", "acd", "ad"}, "a kind of goal does not occur"
 
 
 def told(seen):
-    """The table as a dict from letters to numbers, and the reversing motors."""
+    """Return the table as a dict that maps letters to numbers, and the motors that reverse."""
     rows = {row[0][0]: row[1:] for row in seen.rows}
     return {
         letter: ([float(x) for x in row[:4]], [int(x) for x in re.findall(r"\d", row[4])])
@@ -110,7 +114,7 @@ def told(seen):
 
 
 def shows(shown):
-    """The table and the sentences agree with Python at the goal that is shown."""
+    """Assert that the table and the sentences match Python for the displayed goal."""
     seen = shown.look()
     goal = np.array([seen.boxes[letter] for letter in "xyz"]) * mm
     exact = re.search(r", \[([^\]]*)\]\]\) \* mm", seen.code)
@@ -140,7 +144,7 @@ def shows(shown):
     return seen, wanted
 
 
-def test_sentences_name_the_straight_path_or_say_why_there_is_none(opened):
+def test_sentences_name_the_straight_path_or_explain_why_there_is_none(opened):
     shown = opened(view(), LOADER)
     _, first = shows(shown)
     assert first["c"][1] == [2, 3]
@@ -174,7 +178,7 @@ def test_sentences_name_the_straight_path_or_say_why_there_is_none(opened):
     assert np.hypot(np.hypot(50, 20), 10) == pytest.approx(150 - 95.2, abs=0.06)
 
 
-# --- The hand -------------------------------------------------------------------------------------
+# --- Input ----------------------------------------------------------------------------------------
 
 
 def test_dragging_the_goal_changes_paths_and_numbers(opened):
@@ -204,7 +208,7 @@ def test_arm_follows_the_chosen_path_and_the_clock(opened):
         seen = shown.look()
         assert seen.chosen == "abcd".index("c" if row == "b" else row)
         pictures.append(seen.pixels)
-    assert len({tuple(each) for each in pictures}) == 3, "the arm stays on one path"
+    assert len({tuple(each) for each in pictures}) == 3, "the arm does not follow the chosen path"
     shown.slide("time", 400)
     seen = shown.look()
     assert float(seen.told["time"].removesuffix(" s")) == pytest.approx(
@@ -214,16 +218,16 @@ def test_arm_follows_the_chosen_path_and_the_clock(opened):
     assert seen.pixels not in pictures
 
 
-def test_view_is_accessible(opened):
+def test_view_has_no_accessibility_violations(opened):
     shown = opened(view(), LOADER)
     found = Axe().run(shown.page, context=".rk")
     assert not found.response["violations"], found.generate_report()
 
 
-# --- Calls ----------------------------------------------------------------------------------------
+# --- Invalid calls --------------------------------------------------------------------------------
 
 
-def test_opening_numbers_and_picture():
+def test_summary_states_the_times_and_lengths_of_the_paths():
     made = view()
     for letter, ((time, length, *_), _) in ways(GOAL).items():
         assert f"{letter} {time:.2f} s and {length / mm:.0f} mm" in repr(made)
@@ -250,8 +254,10 @@ def test_invalid_calls_are_refused(call, error, words):
         paths_explorer(**(right | call))
 
 
-def test_turn_of_joint_1_keeps_to_the_shortest_way(twin):
-    """From one side of the direction 180 degrees to the other: joint 1 does not turn back."""
+def test_joint_1_takes_the_shortest_turn(twin):
+    """The start and the goal are on different sides of the direction of 180 degrees, across which
+    joint 1 moves the short way.
+    """
     start, goal = np.array([[-500, 100, 100], [-400, -200, 200]]) * mm
     data = paths_explorer(LOADER, start, goal, RATIO).data
     q = twin.page.evaluate(

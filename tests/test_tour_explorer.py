@@ -133,7 +133,7 @@ def test_stored_output_is_small_and_has_alt_text():
     assert explorer.still.alt == explorer.data["alt"]
 
 
-def test_best_order_is_not_told_before_the_reader_has_an_order():
+def test_best_order_is_hidden_until_the_reader_has_an_order():
     explorer = tour_explorer(CIRCLE, best=False)
     wanted = (
         "Nearest first visits 1 of 4. The best order appears when all points are in your order."
@@ -171,7 +171,7 @@ def test_explorer_opens_with_any_task(task):
 
 
 def by_hand(question, order):
-    """The points of a tour with their times: joint by joint, a free one (NaN) stays where it is."""
+    """Return the points of a tour with their times. A free joint (NaN) keeps its previous value."""
     served = workspace(question["l1"], question["l2"], question["points"]).all(axis=-1)
     task = Task(*(question[key] for key in ("l1", "l2", "T")), SPEEDS, question["p0"],
                 np.array(question["points"])[served], question["kind"])  # fmt: skip
@@ -190,7 +190,7 @@ def by_hand(question, order):
     return list(zip(order, moves[2::2] if task.kind == "collect" else moves[1:], strict=True))
 
 
-def test_page_computes_the_times_of_1000_orders_as_python_does(browser):
+def test_page_times_of_1000_orders_match_python(browser):
     page, rng = opened(browser), np.random.default_rng(21)
     page.goto("about:blank")
     page.add_script_tag(content=f"{script('own_tour')}\nwindow.found = $own_tour.found;")
@@ -254,7 +254,7 @@ def opened(browser, width=1366):
 
 
 def cells(page):
-    """The cells of the table: the greedy tour, the best one, and the reader's own."""
+    """Return the cells of the table: rows for the greedy, the best and the reader's tour."""
     rows = page.locator(".rk-tours tbody tr")
     return [
         [cell.replace("\xa0", " ") for cell in row.locator("td").all_inner_texts()]
@@ -313,7 +313,7 @@ def test_only_the_clock_and_taps_work_in_a_saved_page(browser, tmp_path):
     page.close()
 
 
-def test_taps_make_an_order_of_ones_own(browser, tmp_path):
+def test_taps_build_the_readers_order(browser, tmp_path):
     tour_explorer(CIRCLE, best=False).save(tmp_path / "tour.html")
     page = opened(browser)
     page.goto(f"file://{tmp_path}/tour.html")
@@ -332,12 +332,12 @@ def test_taps_make_an_order_of_ones_own(browser, tmp_path):
         assert (
             page.locator(".rk-says").inner_text().startswith(f"Your order visits {count} of 4 in ")
         )
-        assert cells(page)[1] == ["–"] * 3, "the best order is told too early"
+        assert cells(page)[1] == ["–"] * 3, "the best order appeared too early"
         said = page.locator(".rk-scene").get_attribute("aria-label")
         assert f"Your order visits {count} of 4 in " in said
         wanted = f"number {order.index(k) + 1} in your order" if k in order else "2.00 m"
         assert handle(page, name).get_attribute("aria-label").endswith(wanted)
-    handle(page, "0").click()  # now all points are in the order
+    handle(page, "0").click()  # now the order contains all points
     page.evaluate(FRAMES)
     assert cells(page)[1] == told(CIRCLE, best_visit)[0]
     assert page.locator(".rk-says").inner_text().endswith("visits 1 of 4, the best order 3.")

@@ -589,9 +589,10 @@ def test_table_figure_view_and_prediction_agree_on_the_speed_of_joint_4():
     assert answer == (f"{exact[2] / 360:.2f}", f"{exact[2]:.0f}")
 
 
-def test_dots_of_the_forearm_are_equally_far_apart():
-    """The directions of the forearm, one per millimetre, without the arm's inverse: the wrist
-    centre, 200 mm behind the tool point, is 200 mm from the elbow, which is 100 mm from joint 2.
+def test_dots_of_the_forearm_are_equally_spaced():
+    """Compute the directions of the forearm, one per millimetre, without the arm's inverse. The
+    wrist centre is 200 mm behind the tool point and 200 mm from the elbow, and the elbow is 100 mm
+    from joint 2.
     """
     assert "moves at the same constant speed in both pictures" in sources("06")["sweep-look"]
     centre, (along, beside) = np.array([0.2, 0, 0.2]), np.array([[0, 1, 1], [0, -1, 1]]) / 2**0.5
@@ -625,7 +626,7 @@ def test_speed_of_joint_4_is_the_tool_speed_divided_by_the_miss():
         assert table[miss] * deg == pytest.approx(100 / miss, rel=3e-3)
     claim, answer = sources("06")["title"], " ".join(sources("06")["pull-look"].split())
     through = follow(ITMO6R, ITMO6R.ik(g["line"](0, g["places"])), g["ROW"])[:, 3]
-    fastest = abs(np.gradient(through, 1e-3)).max() / deg  # 0.1 mm take 1 ms
+    fastest = abs(np.gradient(through, 1e-3)).max() / deg  # the tool takes 1 ms for 0.1 mm
     assert 4 < fastest < number(r"joint 4 stays below (\d+)°/s", claim)
     miss = number(r"(\d+) mm: joint 4 reaches the tool's speed divided by the miss", answer)
     assert _fastest(g, miss) < 360 < _fastest(g, miss - 1)
@@ -680,7 +681,7 @@ def test_stated_minimum_ratio_of_tool_speed_to_joint_speed_holds():
     assert "The line at 20 mm is below that" in text
 
 
-def test_two_joints_bring_the_distance_from_a_singularity_to_0():
+def test_each_of_two_joints_can_reduce_the_distance_from_a_singularity_to_0():
     answer = " ".join(sources("06")["near"].split())
     assert "Bring q5 to 0° (wrist singularity), or q3 to 0°, which stretches the arm" in answer
     start = np.array(explorers.joint_explorer(ITMO6R, singular=True).data["q"])

@@ -153,7 +153,7 @@ def inside(place):
     return fits, np.isfinite(rows).all(axis=(-2, -1))
 
 
-def test_rows_are_usable_where_the_text_of_the_first_view_says():
+def test_rows_are_usable_where_the_first_view_says():
     one, other = said("07", "title", r"in (\w+) ways, but only (\w+) are inside")
     (straight,) = said("07", "count", r"Straight ahead, (\w+) rows are usable")
     assert re.search(r"y_target = (\S+)", cells("07")["eight-words"])[1] == "0"
@@ -667,7 +667,7 @@ def test_elbow_formula_is_exact_at_every_point_but_one_and_jumps_there():
 
 @functools.cache
 def generated():
-    """The programs that the lab generates in sections 2 and 5 and under More."""
+    """Return the programs that the lab generates in sections 2 and 5 and under More."""
     pytest.importorskip("sympy")
     names = "derive-line derive-check elimination-code sides-setup sides-code count-code"
     return run("12", *names.split())

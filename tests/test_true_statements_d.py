@@ -277,8 +277,8 @@ def test_lost_steps_with_and_without_a_ramp_are_as_stated():
 # --- Lab 12 ---------------------------------------------------------------------------------------
 
 
-def test_first_views_jump_as_stated():
-    """An elbow is half the distance from both ends: the jump is twice its height above the line."""
+def test_jumps_in_the_first_views_are_as_stated():
+    """The two elbows are mirror images in the line, so the jump is twice their distance from it."""
     height, low, jump = numbers(
         r"At (\S+) m, and also at (\S+) m: the view shows a jump of (\S+) m\.", flat("12", "able")
     )
@@ -300,8 +300,8 @@ def test_first_views_jump_as_stated():
         y2 = (y * half + np.sqrt(x * x * (d2 - half * half))) / d2
         x2 = (half - y * y2) / x
         other = (y * half - np.sqrt(x * x * (d2 - half * half))) / d2
-        assert y2 > other, "the formula returns the upper elbow"
-        assert (x * y2 - y * x2 > 0) == (x > 0), "which is the left one on the right of the base"
+        assert y2 > other, "the formula returns the lower elbow"
+        assert (x * y2 - y * x2 > 0) == (x > 0), "the upper elbow is on the wrong side"
 
 
 def test_elbows_are_exchanged_on_the_stated_side():

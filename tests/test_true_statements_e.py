@@ -512,7 +512,7 @@ def test_motion_starts_gently_and_the_slider_sets_the_mean_speed():
     assert 5 * np.sin(q2) + 4 * np.cos(q2) == pytest.approx(-2.33, abs=0.005)
 
 
-def test_joint_1_decides_up_to_the_stated_speed_of_the_slider():
+def test_joint_1_arrives_last_up_to_the_stated_speed():
     (stated,) = numbers(r"Up to (\S+) rad/s on this slider", flat("08", "time-look"))
     starts, ends = principal_postures(5, 4, [[1, 1, 1], [1, 3, 3]])
     turns = abs(ends - starts)
@@ -667,29 +667,29 @@ def said_pair(cell, pattern):
     return [eval(one), eval(two)], float(kept)
 
 
-def test_swept_place_and_the_valley_between_samples_are_as_stated():
+def test_swept_place_and_the_minimum_between_samples_are_as_stated():
     (place,) = re.findall(r"\((.*?)\) m, right of the line from K to K1", flat("10", "sweep-look"))
     H = np.array(eval(place))
     a, b = through()
     across = np.cross([*(np.array(K1_10) - (1.2, 1.7)), 0], [*(H - (1.2, 1.7)), 0])[2]
-    assert across > 0, "seen from K towards K1, it is on the left, outside the quadrilateral"
+    assert across > 0, "seen from K towards K1, the place is not on the left"
     assert in_quadrilateral(ARM, a, b, H)["AK"] == 0
     s = np.linspace(0, 1, 20001)[:, None]
     assert lever_distance(a + s * (b - a), H, slice(2, 3)).min() < 1e-3
     path = direct(np.array([150, 120, 120]) * deg)
     d = lever_distance(path[0] + s * (path[1] - path[0]), np.array([1.7, 1.0]))
     near = s[d < DISTANCE, 0]
-    assert (np.diff(near) < 1e-3).all(), "there is one valley"
+    assert (np.diff(near) < 1e-3).all(), "there is more than one minimum"
     told = numbers(r"From (\d+) to (\d+) %, a seventh", flat("10", "whole-bound"))
     assert told == [round(100 * near[0]), round(100 * near[-1])]
     assert np.ptp(near) == pytest.approx(1 / 7, abs=0.01)
     hand = re.search(r"slider to (.*?) and 100 %", flat("10", "whole-hand"))[1]
     shares = [float(x) / 100 for x in hand.split(", ")] + [1.0]
     seen = [lever_distance(path[0] + x * (path[1] - path[0]), np.array([1.7, 1.0])) for x in shares]
-    assert min(seen) > DISTANCE, "the program sees that it is too near"
+    assert min(seen) > DISTANCE, "a sample is too near, so the program notices"
 
 
-def test_plan_changes_its_kind_at_the_stated_places():
+def test_planning_method_changes_at_the_stated_places():
     text = flat("10", "cube-text")
     told = numbers(
         r"Down to (\S+) m the direct way is clear\. From (\S+) to (\S+) m via points suffice\. "
@@ -747,8 +747,8 @@ def test_motors_reverse_in_the_last_third_of_the_straight_line():
     assert [len(each) for each in back] == [0, 1, 1] and min(back[1][0], back[2][0]) > 2 / 3
 
 
-def test_answers_to_the_hand_in_lab_11_are_true():
-    """The goal of path b, the borders of the reach, the drift of the cycle, the half steps."""
+def test_answers_to_the_drag_tasks_of_lab_11_are_true():
+    """The tasks are about path b, the limits of reach, the drift of the cycle and half steps."""
     start, loader = np.array([600, -350, 50]) * mm, loader_arm(0.45, 0.30)
     goal = numbers(r"example \((\S+), (\S+), (\S+)\) mm: this line", flat("11", "able"))
     share = np.linspace(0, 1, 2001)[:, None]

@@ -132,7 +132,7 @@ def table(places, speed=0.2):
 
 
 def opening():
-    """The start and the points of the lab's first view."""
+    """Return the start and the points of the lab's first view."""
     for cell in ("opening", "visit-explorer", "collect-explorer"):
         assert (
             f"\nfour = {FOUR}  # m\n" in cells("08")[cell] and "p0=[4, 0, 2]" in cells("08")[cell]
@@ -144,7 +144,7 @@ FOUR = [[2.16, 3.37, 2], [1.81, -3.56, 2], [1.45, -3.73, 2], [1.07, -3.85, 2]]
 
 
 def touched(T, places):
-    """How many points nearest first and the best order touch within T."""
+    """Return how many points nearest first and the best order visit within T."""
     legs = table(places)
 
     def count(order):
@@ -169,7 +169,7 @@ def test_greed_loses_two_points_and_none_at_the_stated_times():
     assert legs[0][2] + legs[2][3] + legs[3][4] == pytest.approx(best, abs=0.05)
 
 
-def test_point_3_becomes_the_first_when_it_is_nearer_than_point_0():
+def test_point_3_comes_first_once_it_is_nearer_than_point_0():
     assert "Once point 3 is nearer to p0 than point 0, nearest first takes it first" in flat(
         "08", "visit-look"
     )
@@ -187,13 +187,13 @@ def test_point_3_becomes_the_first_when_it_is_nearer_than_point_0():
         )
 
 
-def test_way_over_the_axis_costs_the_whole_move_to_it():
+def test_path_over_the_axis_costs_the_whole_move_to_it():
     assert "It costs the whole move from point 0 to the axis" in flat("08", "time-axis-cost")
     places = [[-2, 0.01, 4], [-2, 0.5, 4], [0, 0, 6.5], [2, -0.01, 4]]
     assert f"over = {places[1:]}  # m" in cells("08")["time-axis-explorer"]
     assert f"p0={places[0]}" in cells("08")["time-axis-explorer"]
     q = [joints_of(p) for p in places]
-    over = np.array([q[1][0], *q[2][1:]])  # joint 1 keeps its angle on the axis
+    over = np.array([q[1][0], *q[2][1:]])  # on the axis, joint 1 keeps its angle
     there, on, direct = (needs(a, b, 0.2) for a, b in ((q[1], over), (over, q[3]), (q[1], q[3])))
     assert there + on - direct == pytest.approx(there) and there > 2
     # from p0 to the other side, the rule "a NaN costs nothing" needs more than twice the speed
@@ -233,7 +233,7 @@ def test_numbers_of_the_question_about_more_time_are_right():
     assert "takes 16.5 s" in words
 
 
-def test_second_posture_may_be_nearer_in_as_many_random_tasks_as_stated():
+def test_second_postures_gain_points_in_as_many_random_tasks_as_stated():
     words = flat("08", "deeper-more")
     told = r"more points in (\d+) of the (\d+) tasks, and fewer in none\. The best order visits"
     more, count, gains = numbers(rf"{told} more in (\d+)", words)
@@ -254,7 +254,7 @@ def test_second_posture_may_be_nearer_in_as_many_random_tasks_as_stated():
             return len(rows) - 1 - len(left)
 
         def best(rows, T=task.T):
-            least = {(frozenset(), 0, 0): 0.0}  # the visited points, and where the arm is
+            least = {(frozenset(), 0, 0): 0.0}  # by visited points and position
             most = 0
             for size in range(1, len(rows)):
                 new = {}

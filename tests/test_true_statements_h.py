@@ -142,20 +142,22 @@ DEEPEST = 220.2 - 180  # mm, the lowest height of the tool
 
 
 def _elbow_left(x, y, turn=0.0):
-    """q1, q2 and q3 in degrees by the law of cosines, for a place in mm and the tool's angle."""
+    """Return q1, q2 and q3 in degrees for a place in mm and the tool's angle, computed with the law
+    of cosines.
+    """
     q2 = np.arccos((x**2 + y**2 - 200**2 - 250**2) / (2 * 200 * 250))
     q1 = np.arctan2(y, x) - np.arctan2(250 * np.sin(q2), 200 + 250 * np.cos(q2))
     return np.degrees([q1, q2, np.radians(turn) - q1 - q2])
 
 
 def _rounded(via_z, blend_, count=200_001):
-    """The places (count, 3) of the corner's parabola, in mm."""
+    """Return places (count, 3) on the parabola that rounds the corner, in mm."""
     x = np.linspace(0, 1, count)[:, None]
     start, via, goal = STATIONS - [[0, 0, 0], [0, 0, -via_z], [0, 0, 0]]
     return via + 2 * blend_ * ((1 - x) ** 2 * (start - via) + x**2 * (goal - via))
 
 
-def test_joint_3_ends_where_each_way_round_takes_it():
+def test_final_angle_of_joint_3_depends_on_the_way_round_as_stated():
     text = flat("05", "half-look")
     told = re.findall(r"at (\S+)° if you ask for (\S+)°", text.replace("\N{MINUS SIGN}", "-"))
     told = [(float(turn), float(end)) for end, turn in told]
@@ -167,7 +169,7 @@ def test_joint_3_ends_where_each_way_round_takes_it():
         assert round(q3) == end and (abs(q3) > 400) == (abs(turn) == 540)
 
 
-def test_the_tool_turns_by_30_degrees_while_joint_3_makes_up_for_the_arm():
+def test_tool_turns_by_30_degrees_while_joint_3_compensates_for_the_arm():
     first, last, back = numbers(
         r"from (\S+)° to (\S+)°: joints 1 and 2 turn the tool back by (\S+)°",
         flat("05", "yourturn-3-text"),
@@ -178,7 +180,7 @@ def test_the_tool_turns_by_30_degrees_while_joint_3_makes_up_for_the_arm():
     assert 340 - (100 + 60 + 150) == 30 and last < 400 < _elbow_left(300, 150, 700)[2]
 
 
-def test_the_least_heights_of_via_are_as_stated():
+def test_least_heights_of_the_via_point_are_as_stated():
     without, with_blend = numbers(
         r"At (\S+) mm the stroke .* With a blend of 0\.1, \*via\* may be as low as (\S+) mm",
         flat("05", "blend-answer"),
@@ -193,7 +195,7 @@ def test_the_least_heights_of_via_are_as_stated():
     assert "stroke of 220.2 mm, but joint 4 stops at 180 mm" in flat("05", "able")
 
 
-def test_the_least_blend_is_the_share_of_the_time_below_the_lowest_height():
+def test_least_blend_is_the_fraction_of_the_time_below_the_lowest_height():
     text = flat("05", "blend-look")
     samples, least = numbers(
         r"`fraction = 0`: (\d+) of 1001 are past the limit. The least blend, (\S+), is", text
@@ -204,7 +206,7 @@ def test_the_least_blend_is_the_share_of_the_time_below_the_lowest_height():
     assert (fine < DEEPEST).mean() == pytest.approx(least, abs=1e-4)
 
 
-def test_lin_leaves_its_limits_for_the_stated_goals_and_ptp_does_not():
+def test_lin_exceeds_joint_limits_for_the_stated_goals_and_ptp_does_not():
     text, made = flat("05", "ends-look"), run_cells("05", "ends-player")
     assert "LIN leaves the limits at x = 0 and below" in text
     assert "(At x = −150 the line passes so close" in text and "there is no solution.)" in text

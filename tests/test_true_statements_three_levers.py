@@ -41,7 +41,7 @@ def test_two_levers_are_in_line_at_both_ends_of_the_range():
     assert high == math.pi and family(K, low)[1] == pytest.approx(math.pi, abs=1e-6)
 
 
-def test_s_is_least_where_section_4_says():
+def test_minimum_of_s_is_where_section_4_says():
     words = flat("09", "least-sweep")
     far, behind = complex(2.8, 0.4), SECOND
     assert "Far out, at (2.8, 0.4) m, S is lowest where it is level." in words

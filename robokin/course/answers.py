@@ -287,7 +287,7 @@ def equal(a: Any, b: Any) -> bool:
         if one.dtype != object and two.dtype != object:
             numbers = one.dtype.kind in "fc" and two.dtype.kind in "fc"
             return np.array_equal(one, two, equal_nan=numbers)
-    with contextlib.suppress(Exception):  # also arrays of different shapes in a list
+    with contextlib.suppress(Exception):  # a list may contain arrays of different shapes
         if isinstance(a, (list, tuple)) and type(a) is type(b):
             return len(a) == len(b) and all(map(equal, a, b))
     with contextlib.suppress(Exception):

@@ -132,10 +132,10 @@ class Guess:
 
 
 def guesses(handed: "HandedIn", remarks: list[str] | None = None) -> tuple[Guess, ...]:
-    """Return the results of the predictions of the notebook's lab without running any code.
-    Guesses saved by a kernel come first, then those in the line copied from a page, then the
-    choice in the cell. If an older notebook asks predictions that have since moved to another
-    lab, those with a guess come last. Unusable guesses are reported in `remarks`.
+    """Return the results of the predictions of the notebook's lab without running any code. Guesses
+    saved by a kernel come first, then those in the line copied from a page, then the choice in the
+    cell. If an older notebook contains predictions that have since moved to another lab, those with
+    a guess come last. Unusable guesses are reported in `remarks`.
     """
     kept: Kept = {}
     pasted: dict[str, str] = {}

@@ -52,13 +52,13 @@ class HandedIn:
     """A student's notebook.
 
     lab      the lab whose exercises and predictions it contains, or None
-    asked    the predictions that the notebook asks
+    asked    the predictions in the notebook
     checks   the last call for each exercise, which is the one that counts
     choices  the last call with a choice for each prediction
     broken   the ids of exercises that are checked in cells that are not valid Python, with the
              reasons
     guesses  the line of guesses copied from a page, in the last call of `report` that has one
-    strange  the other exercises that the notebook checks, which are the student's own
+    strange  the names of other exercises that the notebook checks, which the student has made
     """
 
     path: Path

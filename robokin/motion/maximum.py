@@ -34,8 +34,8 @@ def refined_maximum(
 
     `function` maps an array (k,) to an array (k,), NaN where it has no value. For a minimum, negate
     the function. Raises TypeError if `function` is not callable. Raises ValueError if the interval
-    is not finite, a result has another shape, there is no value at all, or the search does not
-    converge, for example near a pole.
+    is not finite, a result has another shape, all results are NaN, or the search does not converge,
+    for example near a pole.
 
     >>> value, at = refined_maximum(lambda t: t * np.exp(-t), 0, 3, 3)
     >>> round(value, 5), round(at, 2)

@@ -1,4 +1,4 @@
-"""The explorer of how near an arm of three levers comes to an obstacle during a motion."""
+"""An explorer of the distance between an arm of three levers and an obstacle during a motion."""
 
 from collections.abc import Mapping
 
@@ -20,32 +20,34 @@ from .palette import AREA, INK
 from .scene import Scene
 from .things import Mark
 
-MOST = 4  # greatest number of via points
+MOST = 4  # maximum number of via points
 WORDS_HERE: Mapping[str, str] = {
     **{name: WORDS[name] for name in ("copy", "copied")},
     "H": "H, the obstacle",
     "via": "K{k}, a via point of the gripper",
-    "leastIs": "The levers come as near to H as",
+    "leastIs": "Least distance of a lever from H:",
     "toLeast": "Nearest moment",
     "none": "no path",
     "where": "lever {lever}, after {percent} % of the motion",
     "sweeps": "lever {lever} sweeps H, after {percent} % of the motion",
-    "kept": "All levers keep {wanted} on the whole way. The gripper comes as near as {gripper}. "
-    "S = {S}°.",
-    "notKept": "Too near: the levers should keep {wanted}. The gripper comes as near as {gripper}. "
-    "S = {S}°.",
+    "kept": "All levers stay at least {wanted} away from H. The least distance of the gripper is "
+    "{gripper}. S = {S}°.",
+    "notKept": "Too near: the levers should stay at least {wanted} away from H. The least distance "
+    "of the gripper is {gripper}. S = {S}°.",
     "scene": "{title}. {says}",
     "curveTitle": "distance from H, mm",
     "motionAxis": "share of the motion, %",
     "anyLever": "nearest lever",
     "gripper": "gripper",
-    "curveSays": "The distance of the nearest lever from H during the motion. It is least, "
-    "{distance}, at lever {lever} after {percent} %. A line marks the {wanted} to keep.",
+    "curveSays": "The distance of the nearest lever from H during the motion. The least "
+    "distance, {distance}, is at lever {lever} after {percent} %. A line marks the required "
+    "distance, {wanted}.",
 }
 MEANT = (
     "Drag the letters, or move them with the arrow keys. Drag along the curve, or move the slider, "
-    "to see the arm at another moment. Between two points, all joints turn evenly, with the least "
-    "S; the percentages are shares of S. The grey disc is the distance to keep."
+    "to see the arm at another moment. Between two points, all joints turn evenly, and S is "
+    "as small as possible; the percentages are fractions of S. The radius of the grey disc is the "
+    "required distance."
 )
 
 
@@ -56,14 +58,15 @@ def clearance_explorer(
     obstacle: ArrayLike,
     via: ArrayLike = (),
 ) -> Explorer:
-    """Show the distance of the nearest lever from the obstacle H as a curve over a motion, with its
-    least value and the distance to keep, a seventh of a lever. The arm moves from the posture (3,)
-    to the target (2,), through the via points (k, 2) of its gripper, each time with the least S.
-    Lengths are in metres, angles in radians.
+    """Plot the distance of the nearest lever from the obstacle H during a motion, its least value,
+    and the required distance, which is a seventh of a lever. The arm moves from the posture (3,) to
+    the target (2,) through the via points (k, 2) of its gripper. On each part of the way, the sum S
+    of the angle changes is as small as possible. Lengths are in metres, angles in radians.
 
-    The reader drags H and the via points, K2 and so on. Raises ValueError if the posture is not one
-    posture within the limits, if the arm does not reach a via point or the target, or if there are
-    more than 4 via points, and TypeError if the arm does not have three levers.
+    The reader drags H and the via points, which are called K2, K3 and so on. Raises ValueError if
+    the posture is not one posture within the limits, if the arm does not reach a via point or the
+    target, or if there are more than 4 via points, and TypeError if the arm does not have three
+    levers.
     """
     instance(arm, ThreeLeverArm, "arm")
     start, K1 = read_start(arm, posture, "posture"), read_point(target, "target")
@@ -106,7 +109,7 @@ def clearance_explorer(
 
 
 def _vias(via: ArrayLike) -> Floats:
-    """The via points (k, 2)."""
+    """Return the via points (k, 2)."""
     points = floats(via, "via")
     points = floats(points, "via", 2) if points.size else np.empty((0, 2))
     if points.ndim != 2 or len(points) > MOST:
@@ -115,7 +118,7 @@ def _vias(via: ArrayLike) -> Floats:
 
 
 def _path(arm: ThreeLeverArm, start: Floats, vias: Floats, K1: Floats) -> Floats:
-    """The path (k + 2, 3) with the least S on each part."""
+    """Return the path (k + 2, 3) that has the least S on each of its parts."""
     path = [start]
     for place in [*vias, K1]:
         q = arm.least(place, path[-1])[0]
@@ -139,7 +142,7 @@ def _code(arm: ThreeLeverArm, start: Floats) -> str:
 def _still(
     summary: str, arm: ThreeLeverArm, path: Floats, H: Floats, distance: float
 ) -> plots.Figure:
-    """The arm before and after the motion, next to the curve."""
+    """Draw the arm before and after the motion, next to the curve."""
     fig = plots.figure(summary, width=8, height=4)
     scene = Scene(fig.add_axes((0, 0, 0.5, 1)), size=extent(arm), flat=True)
     scene.base()

@@ -18,10 +18,10 @@ PITCH = 1.0  # m, between neighbouring arms
 SHOWN = 6.0  # seconds of the motion
 SAMPLES = 1201
 RADIUS = 22 * mm  # the radius of an object
-HANGS = 30 * mm  # from a tool down to the object that it carries
+HANGS = 30 * mm  # the distance from a tool down to the object that it carries
 BEFORE, AFTER = 200 * mm, 100 * mm  # how far the drawn belt extends beyond the windows
 SLOWEST, FASTEST = 0.02, 0.5  # m/s, of the belt
-BUSIEST = 6  # maximum number of arms, and of spreads
+BUSIEST = 6  # maximum number of arms and of spreads
 SQUARE = np.array([[-1, -1], [1, -1], [1, 1], [-1, 1]])
 
 
@@ -126,7 +126,7 @@ def _lanes(places: Sequence[Floats]) -> Floats:
         lanes: list[Floats] = []
         for one in objects:
             there = np.isfinite(one[:, 0])
-            # a few empty samples between two objects of a lane, so that none seems to jump
+            # leave a few samples empty between two objects of a lane, so that none seems to jump
             near = np.convolve(there, np.ones(9), "same") > 0
             free = (k for k, lane in enumerate(lanes) if not np.isfinite(lane[near, 0]).any())
             k = next(free, len(lanes))
@@ -151,7 +151,7 @@ def _belt(feet: Floats) -> list[list[list[float]]]:
 
 
 def _boxes(feet: Floats) -> list[list[list[float]]]:
-    """Return the polygons of the bins: four walls each."""
+    """Return the polygons of the bins. Each bin has four walls."""
     half, height = 80 * mm, 160 * mm
     return [
         [

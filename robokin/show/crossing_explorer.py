@@ -1,4 +1,6 @@
-"""The explorer of two links whose tip crosses a line: the tracks of both elbows, and a formula."""
+"""An explorer of two links whose tip crosses a line. It shows the tracks of both elbows, and which
+elbow a formula returns.
+"""
 
 import numpy as np
 
@@ -15,7 +17,7 @@ from .numbers import rounded, series_step
 from .palette import COMPARED, FAINT, REMARK
 from .sketch import Sketch
 
-SMALL = 0.5  # metres: the lengths of an arm with a shorter reach are in mm
+SMALL = 0.5  # m: if the reach of an arm is shorter, its lengths are shown in mm
 SIDES = "right elbow", "left elbow"
 DIVISORS = "x3", "y3"
 TRACKS = (
@@ -31,15 +33,15 @@ SAYS = {
     "line": "{letter} = {value}",
     "seen": "Tip at x3 {x}, y3 {y} {unit}.",
     "elbow": "{elbow} at ({x}, {y}) {unit}.",
-    "curve": "{y} of both elbows over {x}.",
+    "curve": "{y} of both elbows plotted against {x}.",
     "meet": "Along the dotted line, the two elbows meet at {count} places.",
     "returns": "The formula returns the {elbow}.",
     "jumps": "Along the dotted line, it jumps by {jump} {unit} at {line}.",
     "stays": "The dotted line does not cross {line} within reach, so the formula does not jump.",
     "nothing": "At {line}, the formula divides 0 by 0 and returns no number, although the tip "
     "is in reach.",
-    "stretched": "The arm is stretched: both elbows are one.",
-    "folded": "The arm is folded: both elbows are one.",
+    "stretched": "The arm is stretched: both elbows coincide.",
+    "folded": "The arm is folded: both elbows coincide.",
     "tooFar": "Out of reach: the tip is {gap} beyond the reach of the arm.",
     "tooNear": "Out of reach: the tip is {gap} too close to the base.",
 }
@@ -48,14 +50,14 @@ SAYS = {
 def crossing_explorer(
     arm: ClosedFormArm, tip: ArrayLike, *, divisor: str | None = None
 ) -> Explorer:
-    """Show two links from above, with their tip, which the reader drags, and both elbows. Two lines
-    are the tracks of the elbows while the tip moves along a straight line through it; rings mark
-    the places where the elbows meet.
+    """Show two links from above, with both elbows. The reader drags the tip. Two curves show the
+    tracks of the elbows while the tip moves along a straight line through its current position;
+    rings mark the places where the elbows meet.
 
     With `divisor`, the explorer also shows which elbow the quadratic formula returns, and how far
     it jumps. "x3" means that x2 is eliminated, so that the formula divides by x3 - x1; the line
-    through the tip is then level. "y3" means that y2 is eliminated, and the line is upright. The
-    root has the plus sign. `tip` (2,) is in metres.
+    through the tip is then horizontal. "y3" means that y2 is eliminated; the line is then vertical.
+    The formula uses the plus sign before the root. `tip` (2,) is in metres.
 
     It displays itself at the end of a cell. Raises TypeError if the arm does not consist of two
     links, and ValueError if `tip` is not a point in reach or `divisor` has another value.
@@ -115,7 +117,7 @@ def crossing_explorer(
 
 
 def _elbows(arm: ClosedFormArm, rows: Floats) -> Floats:
-    """The elbows (..., 2) of postures (..., 2)."""
+    """Return the elbows (..., 2) of postures (..., 2)."""
     found: Floats = arm.frames(rows)[..., 1].translation[..., :2]
     return found
 

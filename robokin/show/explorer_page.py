@@ -147,9 +147,9 @@ class ElbowPage(ArmPage):
 
 
 class CrossingPage(ArmPage):
-    """The data of the explorer of a crossing: the tip [x3, y3] in metres, the coordinate of the tip
-    by which the formula divides (0 or 1; None: no formula), the name of the coordinate of the elbow
-    that is drawn over it, the names of the rows and the headings of the table.
+    """The data of the crossing explorer: the tip [x3, y3] in metres, the coordinate of the tip by
+    which the formula divides (0 or 1, or None without a formula), the name of the elbow coordinate
+    that is plotted against it, the names of the rows, and the headings of the table.
     """
 
     kind: Literal["crossing"]
@@ -245,9 +245,9 @@ class RotationPage(ExplorerPage):
 
 
 class PathsPage(ArmPage):
-    """The data of the explorer of paths: start and goal, the pulses per degree of the joints, the
-    greatest frequency of a motor, the row of `ik`, the number of postures along the straight line,
-    the names of the paths, and the headings of the table.
+    """The data of the paths explorer: start and goal, the pulses per degree of the joints, the
+    maximum pulse frequency of a motor, the row of `ik`, the number of postures along the straight
+    line, the names of the paths, and the headings of the table.
     """
 
     kind: Literal["paths"]

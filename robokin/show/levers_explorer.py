@@ -34,7 +34,7 @@ SAYS: Mapping[str, str] = {
     "stays": "{names} keeps its value.",
     "stay": "{names} keep their values.",
     "atEnd": "an end of its range.",
-    "isLevel": "the curve of S is level there.",
+    "isLevel": "the curve of S has a horizontal tangent there.",
     "curveSays": "S for alpha from {low}° to {high}°. The least S is {least}°, at {best}°.",
     "kink": "A kink at {alpha}°, where {name} keeps its value.",
 }
@@ -55,10 +55,10 @@ def levers_explorer(arm: ThreeLeverArm) -> Explorer:
 
 
 def movement_explorer(arm: ThreeLeverArm, previous: ArrayLike, target: ArrayLike) -> Explorer:
-    """Show how much an arm of three levers has to turn to reach a target: the sum S of the angle
-    changes from the posture `previous` (3,), as a curve over the free angle alpha, with its three
-    terms |d gamma|, |d beta| and |d alpha|. Rings mark the kinks of S, where a term is zero, and a
-    diamond marks the least value of S.
+    """Show how far the joints of an arm with three levers must turn to reach a target: the sum S of
+    the angle changes from the posture `previous` (3,), as a curve over the free angle alpha, with
+    its three terms |d gamma|, |d beta| and |d alpha|. Rings mark the kinks of S, where a term is
+    zero, and a diamond marks the least value of S.
 
     The reader chooses alpha by dragging joint A or the curve, and can also drag the target.
     The button *Begin here* makes the current posture the previous one. If there are several targets

@@ -41,8 +41,8 @@ def figure_image(
     png: bytes, alt: str, width: int, height: int, least: int, spatial: bool = False
 ) -> str:
     """Return a figure of `width` x `height` pixels that follows the theme and the width of the
-    page. It is never narrower than `least` pixels; on a narrower page, it scrolls. What a `spatial`
-    view shows is in its middle, so an exported page first shows its middle.
+    page. It is never narrower than `least` pixels; on a narrower page, it scrolls. The content of a
+    `spatial` view is in its middle, so an exported page is first scrolled there.
     """
     image = base64.b64encode(png).decode()
     kind = "robokin-figure robokin-spatial" if spatial else "robokin-figure"

@@ -1,4 +1,4 @@
-"""The explorer of the paths that a loader's gripper takes when its motors run in different ways."""
+"""An explorer of the paths that a loader's gripper takes when its motors run in different ways."""
 
 import numpy as np
 
@@ -24,7 +24,7 @@ from .explorer_page import PathsPage
 from .palette import INK, REMARK, SECOND
 from .scene import Scene
 
-SAMPLES = 1001  # postures along the straight line, as in `straight`
+SAMPLES = 1001  # number of postures along the straight line, as in `straight`
 PATHS = (
     "a: at the limit",
     "b: straight",
@@ -55,10 +55,10 @@ WORDS_HERE = {
 }
 MEANT = (
     TAKE + "Click a row of the table: the arm follows that path. Path a: each motor runs at the "
-    "limit until it is done; a small circle marks the place where one stops. Paths b and c: the "
-    "gripper goes straight; on c a motor reverses. Path d: all motors stop together. The dots show "
-    "all paths at the same moment. Off the line: the greatest distance of a path from the straight "
-    "line."
+    "limit until it is done; a small circle marks each place where a motor stops. Paths b and c: "
+    "the gripper moves in a straight line; on c, a motor reverses. Path d: all motors "
+    "stop together. The dots show all paths at the same moment. Off the line: the greatest "
+    "distance of a path from the straight line."
 )
 
 
@@ -67,13 +67,15 @@ def paths_explorer(
 ) -> Explorer:
     """Show the paths a, b or c, and d of a loader's gripper from the point `start` (3,) to the
     point `goal` (3,), in metres, with their times, lengths, distances from the straight line, and
-    pulses: each motor at the limit, straight, and all in step. The reader moves the goal, plays the
-    moves, and chooses the path that the arm follows.
+    pulses. On path a, each motor runs at its limit; on b and c, the gripper moves in a straight
+    line; on d, all motors stop together. The reader moves the goal, plays the moves, and chooses
+    the path that the arm follows.
 
-    The straight path is b if no motor reverses, and c if one does (see `jobs.steppers.straight`).
-    `per_degree` (3,), or one number, contains the pulses per degree of the joints. Raises TypeError
-    if the arm is not a loader, and ValueError if a point is out of reach, if the straight line
-    leaves the workspace, or if `per_degree` does not contain positive numbers.
+    The straight path is called b if no motor reverses, and c if one does (see
+    `jobs.steppers.straight`). `per_degree`, an array (3,) or one number, is the number of pulses
+    per degree of the joints. Raises TypeError if the arm is not a loader, and ValueError if a point
+    is out of reach, if the straight line leaves the workspace, or if `per_degree` does not contain
+    positive numbers.
     """
     ends = [floats(point, name, 3) for point, name in ((start, STARTS), (goal, GOAL))]
     for place, name in zip(ends, (STARTS, GOAL), strict=True):
@@ -136,19 +138,19 @@ def paths_explorer(
 
 
 def _reverses(move: Move) -> bool:
-    """Whether a motor of this move sends pulses of both signs."""
+    """Return whether a motor reverses during this move, and so receives pulses of both signs."""
     return any(np.ptp(signs) > 0 for _, signs in move.pulses() if signs.size)
 
 
 def _postures(move: Move, ratio: Floats) -> Floats:
-    """Postures (samples, 3) at equal times, and at the times when a motor changes its speed."""
+    """Return postures (samples, 3) at equally spaced times and wherever a motor changes speed."""
     even = np.linspace(0, move.duration, 401)
     t = np.union1d(even, move.t) if len(move.t) < 10 else even
     return joint_values(move(t), ratio)
 
 
 def _path(arm: ClosedFormArm, move: Move, ratio: Floats) -> Floats:
-    """The places (samples, 3) of the gripper during a move."""
+    """Return the positions (samples, 3) of the gripper during a move."""
     return arm.fk(_postures(move, ratio)).translation
 
 
@@ -157,7 +159,7 @@ def _length(path: Floats) -> float:
 
 
 def _halfway(move: Move, ratio: Floats) -> Floats:
-    """The posture (3,) in the middle of a move."""
+    """Return the posture (3,) in the middle of a move."""
     return joint_values(move(move.duration / 2), ratio)
 
 
@@ -183,7 +185,7 @@ def _code(arm: ClosedFormArm, start: Floats, ratio: Floats) -> str:
 def _still(
     alt: str, arm: ClosedFormArm, q: Floats, paths: dict[str, Floats], ends: list[Floats]
 ) -> plots.Figure:
-    """The arm in one posture, and the paths with their letters at their middles."""
+    """Draw the arm in one posture, and the paths, each with its letter in the middle."""
     fig = plots.figure(alt, width=6.4, height=4.5)
     scene = Scene(fig.add_axes((0, 0, 1, 1)), size=extent(arm))
     scene.base()

@@ -85,7 +85,7 @@ def singularity_explorer(
     along, beside = _directions(arm, posture, way)
     misses = _misses(most, step)
     hit = arm.fk(posture)
-    # without rounding errors, which differ between processors
+    # remove rounding errors, which differ between processors
     pose = Transform(Quaternion(rounded(hit.rotation.wxyz, 12)), rounded(hit.translation, 12))
     row, rows = _followed(arm, pose, posture, along, beside, misses)
     opening = rows[0, 0]

@@ -1,9 +1,9 @@
-"""The explorer of tours: points, start and links that the reader can change, and an order of the
-points that the reader chooses; Python computes the greedy tour and the best one.
+"""The tour explorer. The reader changes the points, the start and the links, and chooses an order
+of the points; Python computes the greedy tour and the best one.
 
-The page draws, and asks a kernel whenever something moves (see `live`). It computes the tour in the
-reader's order itself. As in a `Task`, points are numbered from 0. All the text of the page is in
-this module.
+The page draws, and asks a kernel whenever something moves (see `live`). The tour in the reader's
+order is computed in the page. As in a `Task`, points are numbered from 0. All the text of the page
+is in this module.
 """
 
 import re
@@ -154,7 +154,7 @@ def answered(question: Question, speeds: Floats) -> Answer:
     greedy, best  each tour: t (k,) and q (k, 3) at every stop, `order` and `times` of the points
                   served, `cells` of the table; None if there is no tour, or none yet
     says          what the greedy tour loses
-    alone         how many points the greedy tour serves
+    alone         a sentence: how many points the greedy tour visits or collects
     among         the number of points in reach, as text
     notes         the points out of reach, and where the tool dips below the floor
     """
@@ -197,7 +197,7 @@ def answered(question: Question, speeds: Floats) -> Answer:
 
 
 def _alone(task: Task, greedy: Result, n: str) -> str:
-    """Say how many points the greedy tour serves; `n` is the number of points, as text."""
+    """Say how many of the points the greedy tour visits or collects. `n` is their number."""
     does = "Cheapest first brings" if task.kind == "collect" else "Nearest first visits"
     return f"{does} {len(greedy.order)} of {n}."
 
@@ -211,7 +211,7 @@ def _says(task: Task, results: dict[str, Result], n: str) -> str:
             return f"Cheapest first brings {few} of {n}; p0 is on axis 1: more may be possible."
         return f"Cheapest first brings {few} of {n} in {greedy.time:.2f} s; no choice brings more."
     if best is None:
-        return f"{_alone(task, greedy, n)} The best order comes when you let go."
+        return f"{_alone(task, greedy, n)} The best order appears when you let go."
     if lost := len(best.order) - few:
         return (
             f"Greed loses {_points(lost)}: nearest first visits {few} of {n}, the best order "

@@ -1,5 +1,5 @@
-// How near the levers of an arm come to a point H during a motion. The reference is
-// jobs/obstacles/collision.py.
+// The distance of the levers of an arm from a point H during a motion. The reference implementation
+// is jobs/obstacles/collision.py.
 
 import {clamp, distance2} from "./rows.js";
 
@@ -7,8 +7,9 @@ import {clamp, distance2} from "./rows.js";
 /** @import {ThreeLeverArm} from "./levers.js" */
 
 /**
- * A motion through postures, between which every joint turns evenly: the postures, the fraction of
- * S at each of them, S in radians, the fractions of the samples, and O, B, A, K at each sample.
+ * A motion through postures, between which every joint turns evenly. Properties: the postures, the
+ * fraction of S at each of them, S in radians, the fractions of the samples, and O, B, A, K at each
+ * sample.
  * @typedef {object} Motion
  * @property {number[][]} path
  * @property {number[]} ends
@@ -16,16 +17,17 @@ import {clamp, distance2} from "./rows.js";
  * @property {number[]} shares
  * @property {Pixel[][]} points  in metres
  */
-/** @typedef {{distance: number, place: Pixel}} Near  the nearest place of a lever, in metres */
+/** @typedef {{distance: number, place: Pixel}} Near  the point of a lever nearest to H, in m */
 /**
- * The least distance of a lever, or of the gripper (index 3), and where on the motion it is.
+ * The least distance of a lever or of the gripper (index 3), and the fraction of the motion at
+ * which it occurs.
  * @typedef {Near & {index: number, share: number}} Least
  */
 
 const SAMPLES = 240,
   GOLDEN = (Math.sqrt(5) - 1) / 2,
-  SAME = 2e-6, // m: of two levers that are as near as each other, the first one is named
-  ROUNDS = 40; // of the golden section, which leaves 1e-8 of its interval
+  SAME = 2e-6, // m: if two distances differ by less, the first of the two levers is named
+  ROUNDS = 40; // of the golden-section search, which shrink its interval by a factor of 1e-8
 
 /**
  * The points O, B, A and K in metres.
@@ -45,7 +47,7 @@ function jointsOf({geometry: {levers}}, q) {
 }
 
 /**
- * The motion through these postures.
+ * Returns the motion through these postures.
  * @param {ThreeLeverArm} arm
  * @param {number[][]} path
  * @returns {Motion}
@@ -63,7 +65,7 @@ export function motionOf(arm, path) {
 }
 
 /**
- * The posture at a fraction of S, as `along` in planner.py.
+ * Returns the posture at a fraction of S, as `along` in planner.py does.
  * @param {Pick<Motion, "path" | "ends">} motion
  * @param {number} share
  */
@@ -78,7 +80,7 @@ export function postureAt({path, ends}, share) {
 }
 
 /**
- * How near each lever is to H, and how near the gripper is.
+ * Returns the nearest point to H of each lever and of the gripper.
  * @param {Pixel[]} points  O, B, A, K
  * @param {Point} H
  * @returns {Near[]}
@@ -112,8 +114,8 @@ export function nearestAt(arm, motion, H, share) {
 }
 
 /**
- * The distance of the nearest lever and of the gripper at all samples, in metres, and the least of
- * both.
+ * The distances of the nearest lever and of the gripper at all samples, in metres, and the least
+ * distance of each.
  * @param {ThreeLeverArm} arm
  * @param {Motion} motion
  * @param {Point} H
@@ -132,8 +134,8 @@ export function approachOf(arm, motion, H) {
 }
 
 /**
- * The least distance of one lever or of the gripper: around each sample that is as near as its
- * neighbours or nearer, the golden section looks for a nearer moment.
+ * The least distance of one lever or of the gripper. A golden-section search refines every sample
+ * whose distance is not greater than those of its neighbours.
  * @param {ThreeLeverArm} arm
  * @param {Motion} motion
  * @param {Point} H

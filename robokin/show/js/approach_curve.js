@@ -1,5 +1,5 @@
-// The distance of the nearest lever from an obstacle as a curve over a motion, with the distance to
-// keep and the least distance.
+// Plots the distance of the nearest lever from an obstacle during a motion, with the required
+// distance and the least distance.
 
 import {
   clear,
@@ -21,7 +21,7 @@ import {scale} from "./ticks.js";
 /** @typedef {(value: number) => number} Place */
 /**
  * What the curve shows: the motion, the distances of the nearest lever and of the gripper at its
- * samples, the least distance of a lever, the distance to keep, the current moment, and the names
+ * samples, the least distance of a lever, the required distance, the current moment, and the names
  * of the via points.
  * @typedef {object} Shown
  * @property {Motion} motion
@@ -44,7 +44,7 @@ const MARGIN = {left: 40, right: 14, top: 50, bottom: 34}, // px
 const inMm = metres => 1000 * metres;
 
 /**
- * Draws the curve; without a motion, only its title.
+ * Draws the curve or, if there is no motion, only its title.
  * @param {HTMLCanvasElement} canvas
  * @param {Record<string, string>} words
  * @param {?Shown} shown
@@ -94,7 +94,7 @@ export function drawApproach(canvas, words, shown) {
 }
 
 /**
- * The place of the plot on a canvas, for distances up to `most` millimetres.
+ * The area of the plot on a canvas, for distances up to `most` millimetres.
  * @param {Context} g
  * @param {number} w
  * @param {number} h
@@ -116,7 +116,7 @@ function plotOf(g, w, h, most) {
 }
 
 /**
- * Names the two lines, each next to a piece of it.
+ * Draws the legend of the two lines.
  * @param {Context} g
  * @param {Record<string, string>} words
  * @param {number} left
@@ -187,7 +187,7 @@ function drawVias({g, top, bottom, x}, {motion: {ends}, vias}) {
 }
 
 /**
- * Writes the distance to keep over its line, at the end where the curve is farther away.
+ * Writes the required distance above its line, at the end where the curve is farther away.
  * @param {Plot} plot
  * @param {Shown} shown
  */

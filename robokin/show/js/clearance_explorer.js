@@ -1,5 +1,5 @@
-// The explorer of a clearance: the reader drags an obstacle H and the gripper's via points, and
-// sees how near the levers come to H during the motion. All text and the arm data come from Python
+// The clearance explorer: the reader drags an obstacle H and the gripper's via points, and sees how
+// near the levers come to H during the motion. All text and the arm data come from Python
 // (explorer_page.py: ClearancePage).
 
 import {approachOf, motionOf, nearestAt, postureAt} from "./approach.js";
@@ -26,13 +26,13 @@ import {degrees, plain} from "./turns.js";
 
 /** @typedef {ClearancePage & {arm: ThreeLeverArm}} ClearanceExplorer */
 /**
- * The reader's settings. `share` is the fraction of the motion at which the arm is drawn; null:
- * where it is nearest to H.
+ * The reader's settings. `share` is the fraction of the motion at which the arm is drawn, or null
+ * for the moment at which it is nearest to H.
  * @typedef {{obstacle: Point, vias: Point[], share: ?number}} State
  */
 /**
- * What follows from the settings: the motion and the distances during it, the nearest lever at the
- * current moment, and the names of the via points; if a point is out of reach, only the reason.
+ * The result of the settings: the motion and the distances during it, the nearest lever at the
+ * current moment, and the names of the via points. If a point is out of reach: only the reason.
  * @typedef {ReturnType<typeof approachOf> & {
  *   motion: Motion, now: Least, wanted: number, vias: string[], why?: undefined,
  * }} Passing
@@ -40,10 +40,10 @@ import {degrees, plain} from "./turns.js";
 /** @typedef {Passing | {why: string}} Found */
 
 const LEVERS = ["OB", "BA", "AK"],
-  TOUCHES = 5e-5; // m: shown as 0.0 mm
+  TOUCHES = 5e-5; // m: a shorter distance is shown as 0.0 mm
 
 /**
- * Builds the view in every element that waits for this id.
+ * Builds the view in every placeholder with this id.
  * @param {string} id
  * @param {ClearanceExplorer} data
  */
@@ -108,7 +108,7 @@ function clearanceExplorer(stage, data) {
 
 /**
  * Returns a function that maps via points to the postures of the path, up to the first point that
- * is out of reach; the last result is kept, since only another via point changes it.
+ * is out of reach. It caches the last result, which changes only with the via points.
  * @param {ClearanceExplorer} data
  * @returns {(vias: Point[]) => {path: number[][], motion: Motion}}
  */
@@ -184,8 +184,8 @@ function told({words: says}, found) {
 }
 
 /**
- * The points of the scene, with names where they have no handles: start, target, the distance of
- * the nearest lever.
+ * The points of the scene. Those without a handle have a label: the start, the target, and the
+ * nearest point of a lever.
  * @param {ClearanceExplorer} data
  * @param {State} state
  * @param {Found} found
@@ -236,7 +236,7 @@ function armOf(stage, {arm: {name, chain}, q, distance}, state, found) {
 }
 
 /**
- * Draws some moments of the levers and the way of the gripper.
+ * Draws the levers at several moments, and the path of the gripper.
  * @type {(found: Passing) => Draw}
  */
 const drawSwept =
@@ -283,7 +283,7 @@ function handlesOf({arm, words: says, unit}, state) {
 }
 
 /**
- * The Python code that finds the same distances.
+ * The Python code that computes the same distances.
  * @param {ClearanceExplorer} data
  * @param {State} state
  */

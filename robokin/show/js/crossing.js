@@ -11,16 +11,17 @@ import {exists} from "./rows.js";
 
 /** @typedef {ClosedFormArm & ArmOf<TwoLinkInverse>} TwoLinkArm */
 /**
- * The tracks of both elbows on one side of the base, and which of them the formula returns there:
- * 0 for the right elbow, 1 for the left one. `u` is how far from the base each sample is.
+ * The tracks of both elbows on one side of the base, and which of them the formula returns there: 0
+ * for the right elbow, 1 for the left one. `u` contains the changing coordinate of the tip,
+ * measured from the base.
  * @typedef {{u: number[], right: Point[], left: Point[], which: number}} Tracks
  */
 
 const STEPS = 60; // of each half of a track
-const TINY = 1e-9; // times the reach: this close to the divisor's zero, a track begins
+const TINY = 1e-9; // times the reach: a track begins this close to the zero of the divisor
 
 /**
- * The right and the left elbow; none if the tip is out of reach.
+ * Returns the right and the left elbow, or an empty array if the tip is out of reach.
  * @param {TwoLinkArm} arm
  * @param {Point} tip
  */
@@ -42,7 +43,7 @@ export function byRoot({geometry: {l1, l2, base}}, tip, k) {
     v = tip[1 - k] - base[1 - k],
     d2 = u * u + v * v,
     half = (d2 + l1 * l1 - l2 * l2) / 2,
-    // on the rim, rounding may make the root's argument negative
+    // at the limit of the reach, rounding errors may make the radicand negative
     root = Math.sqrt(Math.max(u * u * (l1 * l1 * d2 - half * half), 0)),
     kept = (v * half + root) / d2,
     found = [0, 0, 0];
@@ -52,7 +53,7 @@ export function byRoot({geometry: {l1, l2, base}}, tip, k) {
 }
 
 /**
- * Which of both elbows the formula returns; -1 if it returns none.
+ * Returns the index of the elbow that the formula returns, or -1 if it returns none.
  * @param {Point[]} elbows
  * @param {?Point} formula
  */
@@ -63,7 +64,7 @@ export function nearest(elbows, formula) {
 }
 
 /**
- * The tip moved to `u` from the base along coordinate k.
+ * Returns the tip after its coordinate k has been set to `u`, measured from the base.
  * @param {TwoLinkArm} arm
  * @param {Point} tip
  * @param {number} k
@@ -73,7 +74,7 @@ export const movedTo = ({geometry: {base}}, tip, k, u) =>
   tip.map((x, i) => (i === k ? base[k] + u : x));
 
 /**
- * How far from the base coordinate k of the tip can be on its line: [nearest, farthest].
+ * Returns the least and the greatest distance, along coordinate k, of the tip from the base.
  * @param {TwoLinkArm} arm
  * @param {Point} tip
  * @param {number} k
@@ -85,8 +86,8 @@ export const rangeOf = ({geometry: {l1, l2, base}}, tip, k) =>
   });
 
 /**
- * The tracks of the elbows on both sides of the base, while coordinate k of the
- * tip changes. Samples are closest where the elbows move fastest, at the rim.
+ * The tracks of the elbows on both sides of the base while coordinate k of the tip changes. The
+ * samples are densest at the limit of the reach, where the elbows move fastest.
  * @param {TwoLinkArm} arm
  * @param {Point} tip
  * @param {number} k
@@ -101,7 +102,7 @@ export function tracksAt(arm, tip, k) {
       const share = (1 - Math.cos((i * Math.PI) / STEPS)) / 2,
         u = side * (start + share * (far - start));
       return {u, pair: elbowsAt(arm, movedTo(arm, tip, k, u))};
-    }).filter(({pair}) => pair.length); // at the ends, rounding may take the tip out of reach
+    }).filter(({pair}) => pair.length); // at the ends, rounding errors may put the tip out of reach
     const middle = movedTo(arm, tip, k, (side * (start + far)) / 2);
     const pairs = samples.map(({pair}) => pair);
     return {

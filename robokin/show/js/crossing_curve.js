@@ -1,5 +1,5 @@
-// The curves below the numbers of the explorer of a crossing: the eliminated coordinate of both
-// elbows over the coordinate of the tip that changes.
+// The curves below the numbers of the crossing explorer. They plot the eliminated coordinate of
+// both elbows against the coordinate of the tip that changes.
 
 import {clear, colors, number, prepared, spot, stroke, upright, write} from "./canvas.js";
 
@@ -82,7 +82,7 @@ export function drawCurves(canvas, data, {tip}, {tracks, meets, elbows, formula,
  * Writes the names of both elbows beside the middle of their curves.
  * @param {Context} g
  * @param {string[]} names
- * @param {Tracks | undefined} track  on the right
+ * @param {Tracks | undefined} track  the track on the right
  * @param {(u: number) => number} x
  * @param {(at: Point) => number} y
  */

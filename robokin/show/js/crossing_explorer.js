@@ -1,6 +1,6 @@
-// The explorer of two links whose tip crosses a line: the reader drags the tip and sees the tracks
-// of both elbows, and which of them a formula returns. All text and the arm data come from Python
-// (explorer_page.py: CrossingPage).
+// The crossing explorer of two links whose tip crosses a line: the reader drags the tip and sees
+// the tracks of both elbows, and which of them a formula returns. All text and the arm data come
+// from Python (explorer_page.py: CrossingPage).
 
 import {fill, inWords} from "./blanks.js";
 import {number} from "./canvas.js";
@@ -30,7 +30,7 @@ import {lengths} from "./turns.js";
 /** @typedef {ReturnType<typeof foundAt>} Found */
 
 /**
- * Builds the view in every element that waits for this id.
+ * Builds the view in every placeholder with this id.
  * @param {string} id
  * @param {CrossingExplorer} data
  */
@@ -39,8 +39,8 @@ export const explore = (id, data) =>
 
 /**
  * Everything that the view shows: the rows of `ik`, the elbows, their tracks, the places where they
- * meet, the elbow of the formula and which one it is (-1 for none), and both elbows where the line
- * through the tip crosses the zero of the divisor.
+ * meet, the elbow that the formula returns and its index (-1 for none), and both elbows where the
+ * line through the tip crosses the zero of the divisor.
  * @param {CrossingExplorer} data
  * @param {State} state
  */
@@ -146,7 +146,7 @@ function cells(data, {elbows, formula}) {
 }
 
 /**
- * The places of the tip and of the elbows as sentences.
+ * Sentences that state the positions of the tip and of the elbows.
  * @param {CrossingExplorer} data
  * @param {State} state
  * @param {Found} found
@@ -166,8 +166,8 @@ function seen(data, {tip}, {elbows, meets}) {
 }
 
 /**
- * Says which elbow the formula returns, and how far it jumps on the line through the tip; or why
- * there is none.
+ * Says which elbow the formula returns, and how far it jumps on the line through the tip. If it
+ * returns none, says why.
  * @param {CrossingExplorer} data
  * @param {State} state
  * @param {Found} found

@@ -1,6 +1,6 @@
-// The picture of the explorer of a crossing: the tracks of both elbows, the band of the formula and
-// its jump. Both tracks are on the circle of radius l1 around the base; that of the right elbow is
-// drawn a little outside it, that of the left elbow a little inside.
+// The picture of the crossing explorer: the tracks of both elbows, and the band of the formula with
+// its jump. Both tracks are on the circle of radius l1 around the base; the track of the right
+// elbow is drawn a little outside it, and that of the left elbow a little inside it.
 
 import {fill} from "./blanks.js";
 import {clear, colors, spot, stroke, write} from "./canvas.js";
@@ -13,7 +13,7 @@ import {distance2} from "./rows.js";
 /** @import {Camera} from "./camera.js" */
 /** @import {CrossingExplorer, Found, State} from "./crossing_explorer.js" */
 
-const RAIL = 6; // px
+const RAIL = 6; // px: the distance of a drawn track from the circle
 
 /**
  * The elbows and the tip with their names.
@@ -33,7 +33,7 @@ export function named({rows, words, arm}, {tip}, {rows: q, elbows, which}) {
 }
 
 /**
- * The arm with the elbow of the formula, and the other one as a ghost.
+ * The arm with the elbow that the formula returns. The other elbow is drawn faintly.
  * @param {(cam: Camera) => Box[]} place  of the handles
  * @param {CrossingExplorer} data
  * @param {State} state
@@ -128,7 +128,7 @@ function drawTracks(g, {to}, data, {tip}, {tracks, crossing}) {
 }
 
 /**
- * A pixel, moved away from another one by `by`.
+ * Moves a pixel away from another one by `by`.
  * @param {Pixel} at
  * @param {Pixel} from
  * @param {number} by
@@ -140,7 +140,8 @@ function aside([x, y], [x0, y0], by) {
 }
 
 /**
- * Draws the places where the elbows meet, the elbow of the formula, and the name of its line.
+ * Draws the places where the elbows meet, the elbow that the formula returns, and the name of the
+ * line where it divides by 0.
  * @param {Context} g
  * @param {Camera} cam
  * @param {CrossingExplorer} data

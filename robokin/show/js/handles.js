@@ -144,7 +144,7 @@ function button(handle, {camera, hold, changed}) {
   };
   for (const end of ["pointerup", "pointercancel", "lostpointercapture"])
     node.addEventListener(end, drop);
-  // the keyboard causes a click without a pointer, whose detail is 0
+  // the detail of a click is 0 if it was caused by the keyboard
   node.addEventListener("click", event => {
     if (tapped || !event.detail) handle.tap?.();
   });
@@ -194,7 +194,7 @@ function placed(handle, camera, taken, canvas) {
   return /** @type {Pixel} */ ([x, y]);
 }
 
-const TAP = 4; // px: a pointer that moves less far has tapped
+const TAP = 4; // px: a pointer movement shorter than this counts as a tap
 /** @type {Object<string, [number, number]>} */
 const STEPS = {ArrowLeft: [-1, 0], ArrowRight: [1, 0], ArrowUp: [0, 1], ArrowDown: [0, -1]};
 
@@ -218,7 +218,7 @@ function apart(place, taken, room, inside) {
       length = Math.sqrt(dx * dx + dy * dy);
     [x, y] = inside([near[0] + (room * dx) / length, near[1] + (room * dy) / length]);
   }
-  // in a corner of the scene, the edges push the handle back: it takes the nearest free place
+  // in a corner of the scene, the edges push the handle back, so it takes the nearest free place
   for (let far = room; far < 5 * room; far += room / 2)
     for (let k = 0; k < 12; k++) {
       const angle = (k * Math.PI) / 6;
@@ -287,8 +287,8 @@ export function squareTo(axis) {
 
 /**
  * The handle of a point in the plane z = 0, with a letter on it.
- * @param {{letter: string, name: string, color: Color, unit: Unit, step: number}} look  `step` in
- *   metres for an arrow key, ten times as far with Shift
+ * @param {{letter: string, name: string, color: Color, unit: Unit, step: number}} look  `step` is
+ *   the distance in metres that an arrow key moves the point; with Shift it is ten times as long
  * @param {() => Point} at
  * @param {(place: Point) => void} take
  * @returns {Handle}

@@ -310,7 +310,7 @@ export function kinks(arm, point, previous) {
 export const KEPT = 1e-6;
 
 /**
- * Why no posture reaches a point, as `out_of_reach` of planar.py.
+ * Returns the reason why no posture reaches a point, as `out_of_reach` in planar.py does.
  * @param {Record<string, string>} says
  * @param {ThreeLeverArm} arm
  * @param {number[]} place

@@ -1,4 +1,4 @@
-// The tour in the reader's own order, which the page computes: it needs no kernel.
+// The tour in the reader's own order. The page computes it without a kernel.
 
 import {fill} from "./blanks.js";
 import {toured} from "./tour_picture.js";
@@ -35,7 +35,7 @@ export function found({words, speeds}, state, {answer, question: asking}) {
 /**
  * The tour through the points in the reader's order, without those out of reach. As in `itinerary`
  * (solver.py), the arm returns to the start with each point that it collects, and a free joint
- * keeps its value. Points that are reached after T stand only in the cell of the table.
+ * keeps its value. Points that are reached after T are listed only in the table.
  * @param {Question} question
  * @param {Answer} answer
  * @param {number[]} chosen  the points in the reader's order
@@ -72,7 +72,7 @@ function ownTour({T, kind}, {postures}, chosen, speeds, late) {
   };
 }
 
-const ROUNDING = 1e-12; // of T: a time that exceeds T by less is within T, as in solver.py
+const ROUNDING = 1e-12; // times T: a time that exceeds T by less is within T, as in solver.py
 
 /**
  * Postures whose free joints (null) have their values at the previous stop or, at the beginning,

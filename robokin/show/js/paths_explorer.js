@@ -1,7 +1,6 @@
 // The paths explorer: the reader moves the goal of a loader and sees the paths that its gripper
-// takes if each motor runs at the limit, if the gripper goes straight, and if all motors stop
-// together.
-// All text and the arm data come from Python (explorer_page.py: PathsPage).
+// takes if each motor runs at its limit, if the gripper moves in a straight line, and if all motors
+// stop together. All text and the arm data come from Python (explorer_page.py: PathsPage).
 
 import {fill} from "./blanks.js";
 import {gapInWords} from "./branches.js";
@@ -36,7 +35,8 @@ import {lengths} from "./turns.js";
 /** @typedef {Target & {time: number, playing: boolean, chosen: number}} State */
 /** @typedef {Move & ReturnType<typeof pathOf> & ReturnType<typeof pulsesOf>} Way */
 /**
- * The ways to the goal by the row of the table, null where there is none, and why one is missing.
+ * The paths to the goal in the order of the table (null if there is none), the reason why one is
+ * missing, and the fraction of the straight line at which it fails.
  * @typedef {{ways: (?Way)[], gap: string, share: number}} Ways
  */
 
@@ -51,7 +51,7 @@ const LOOKS = {
 };
 
 /**
- * Builds the view in every element that waits for this id.
+ * Builds the view in every placeholder with this id.
  * @param {string} id
  * @param {PathsExplorer} data
  */
@@ -124,8 +124,8 @@ function pathsExplorer(stage, data) {
 }
 
 /**
- * Returns a function that maps the goal to the ways there; the last ones are kept, since only a new
- * goal changes them.
+ * Returns a function that maps the goal to the paths there. It caches the last result, which
+ * changes only with the goal.
  * @param {PathsExplorer} data
  * @returns {(goal: Point) => Ways}
  */
@@ -165,8 +165,8 @@ export function waysOf(data, goal) {
 }
 
 /**
- * The row of the path that the arm follows: the one that the reader has chosen, or the other
- * straight one, or d; -1 if there is no path.
+ * Returns the row of the path that the arm follows: the path that the reader has chosen. If it does
+ * not exist, this is the other straight path or, if there is none, path d; -1 if there is no path.
  * @param {(?Way)[]} ways
  * @param {number} wanted
  */
@@ -176,7 +176,7 @@ function rowOf(ways, wanted) {
 }
 
 /**
- * The arm on its path, in front of all paths; at the start if there is no path.
+ * The arm on its path, drawn in front of all paths. If there is no path, it is at the start.
  * @param {Stage} stage
  * @param {PathsExplorer} data
  * @param {State} state
@@ -245,7 +245,7 @@ const lengthText = (x, {size}) => number(x / size, size < 1 ? 0 : 3);
 const motors = ({reversing}) => reversing.map(j => j + 1).join(", ");
 
 /**
- * The times, and why the straight line is b or c, or is missing.
+ * Sentences that state the times, and why the straight line is path b or c, or is missing.
  * @param {PathsExplorer} data
  * @param {Ways} found
  */

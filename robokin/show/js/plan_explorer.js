@@ -137,8 +137,8 @@ function planExplorer(stage, root, id, data) {
 }
 
 /**
- * Target, obstacle, the via points and the nearest place of a lever, of which the last ones have
- * labels; the first two have letters on their handles.
+ * The target, the obstacle, the via points and the nearest point of a lever. The target and the
+ * obstacle have no label here, since their handles have letters.
  * @param {State} state
  * @param {Shown} shown
  */

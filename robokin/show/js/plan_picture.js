@@ -67,7 +67,7 @@ const drawBelow =
 const mean = (points, k) => points.reduce((sum, p) => sum + p[k], 0) / points.length;
 
 /**
- * Draws the line from the obstacle to the nearest place of the levers.
+ * Draws the line from the obstacle to the nearest point of the levers.
  * @type {(shown: Shown, state: State) => Draw}
  */
 const drawAbove =

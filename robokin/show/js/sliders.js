@@ -71,7 +71,7 @@ function followFinger(node) {
         if (finger === held) finger = null;
       });
     });
-  // undo only the changes that the browser makes during the touch, not those by keys and scripts
+  // undo only changes that the browser makes during the touch, not those made by keys or scripts
   const undo = (/** @type {Event} */ event) => {
     if (!finger || !event.isTrusted) return;
     if (finger.drags === null) finger.under = +node.value;

@@ -18,8 +18,8 @@ import {radians} from "./turns.js";
  */
 /** @typedef {{q: ?number[][], missing: ?Point, share: number}} Line  see `lineOf` */
 
-const SLACK = 1e-9, // a position this close to a whole pulse counts as that pulse
-  SAMPLES = 240; // at least so many samples of a path
+const SLACK = 1e-9, // positions this close to a whole number of pulses count as that number
+  SAMPLES = 240; // minimum number of samples of a path
 
 /**
  * The postures at points along a motion, with the elbow up. Joint 1 takes the shortest turn and, on
@@ -50,8 +50,8 @@ const jointValues = ({per_degree}, positions) =>
   positions.map((x, j) => (x / per_degree[j]) * radians(1));
 
 /**
- * The moves a (each motor at the limit until it stops) and d (all stop together) from one point to
- * another, both in reach.
+ * The moves a (each motor runs at its limit until it stops) and d (all stop together) from one
+ * point to another, both in reach.
  * @param {Loader} loader
  * @param {Point} start
  * @param {Point} goal
@@ -92,7 +92,7 @@ export function lineOf(loader, start, goal) {
 }
 
 /**
- * The move along a straight line, on which at any moment the fastest motor is at the limit.
+ * The move along a straight line. At any moment, the fastest motor runs at its limit.
  * @param {Loader} loader
  * @param {number[][]} q  postures along the line
  * @returns {Move}
@@ -134,8 +134,8 @@ export const postureAt = (loader, move, time) => jointValues(loader, positionsAt
 export const durationOf = ({t}) => t[t.length - 1];
 
 /**
- * The number of pulses of a move, and the motors that reverse, from 0. A pulse is sent when the
- * motor should be one whole pulse further, or further back.
+ * The number of pulses of a move, and the indices of the motors that reverse. A motor receives a
+ * pulse whenever its required position is a whole pulse ahead of its actual one, or behind it.
  * @param {Move} move
  */
 export function pulsesOf({positions}) {
@@ -157,9 +157,8 @@ export function pulsesOf({positions}) {
 }
 
 /**
- * The gripper's path during a move, the places where a motor changes its speed on the way, the
- * length of the path, and its greatest distance from the straight line between two points, in
- * metres.
+ * The gripper's path during a move, the places where a motor changes its speed, the length of the
+ * path, and its greatest distance from the straight line between two points, in metres.
  * @param {Loader} loader
  * @param {Move} move
  * @param {Point} start
@@ -175,7 +174,7 @@ export function pathOf(loader, move, start, goal) {
     path = [tool(positions[0])],
     bends = [];
   for (let k = 0; k < last;) {
-    // at both ends the motors are rounded to whole pulses
+    // at both ends, the positions of the motors are rounded to whole pulses
     const next = k && k < last - 1 ? Math.min(k + stride, last - 1) : k + 1,
       pieces = Math.ceil((SAMPLES * (t[next] - t[k])) / duration);
     for (let i = 1; i < pieces && stride === 1; i++)

@@ -1,6 +1,6 @@
-// The explorer of tours: points to drag, and the tours that a kernel computes (live.js). The
-// reader's own order, the tour through it, and the clock that moves the arm along a tour need no
-// kernel. The text comes from Python (tour_explorer.py).
+// The tour explorer: points to drag, and the tours that a kernel computes (live.js). The reader's
+// own order, the tour through it, and the clock that moves the arm along a tour need no kernel. The
+// text comes from Python (tour_explorer.py).
 
 import {number} from "./canvas.js";
 import {clockRow, runningClock} from "./clock.js";
@@ -101,7 +101,7 @@ function tourExplorer(root, id, stage, data) {
     say(stage, notes, says, shown.says, heard.answer);
     stage.changed();
   };
-  /** Takes the reader's order, and shows the arm at its end. @param {number[]} order */
+  /** Sets the reader's order, and shows the arm at its end. @param {number[]} order */
   const take = order => {
     [state.order, state.chosen] = [order, names.indexOf("yours")];
     tell();
@@ -149,7 +149,7 @@ function tourExplorer(root, id, stage, data) {
  * @param {State} state
  * @param {Answer} answer
  * @param {(?Tour)[]} tours
- * @param {?Tour | undefined} tour  the chosen one
+ * @param {?Tour | undefined} tour  the chosen tour
  * @param {number[]} q
  */
 function draw(stage, state, answer, tours, tour, q) {
@@ -159,9 +159,9 @@ function draw(stage, state, answer, tours, tour, q) {
 }
 
 /**
- * Shows the sentences.
+ * Shows the sentences and the notes.
  * @param {Stage} stage
- * @param {HTMLElement} list  of the notes
+ * @param {HTMLElement} list  the list of notes
  * @param {TourExplorer["words"]} words
  * @param {string} text
  * @param {Answer} answer
@@ -180,7 +180,7 @@ const without = (order, k) => order.filter(each => each !== k);
  * @param {Stage} stage
  * @param {TourExplorer} data
  * @param {State} state
- * @param {() => void} setHandles  makes the handles of the points anew
+ * @param {() => void} setHandles  creates the handles of the points again
  */
 function inputsOf(stage, data, state, setHandles) {
   const {words: says, unit, controls, kinds, spare} = data;

@@ -46,7 +46,7 @@ class PageZone(TypedDict):
 class Zone(Thing):
     """The zone of a SCARA: the places (x, y) that its tool can reach while joints 1 and 2 are
     inside their limits. Each elbow has an area on the floor; the areas overlap at places that both
-    elbows reach. Along a line in the colour of a joint, that joint is at its limit. Raises
+    elbows reach. On each line in the colour of a joint, this joint is at its limit. Raises
     TypeError if the arm is not a SCARA.
 
     sides   the sides of the area of each elbow, in order: the index of the joint at its limit, or
@@ -65,7 +65,7 @@ class Zone(Thing):
         for elbow in (+1, -1):
             low, high = np.clip(
                 np.sort(elbow * arm.limits[1]), 0, np.pi
-            )  # the range of the bend of joint 2
+            )  # the range of the absolute angle of joint 2
             if low == high:
                 continue
             near, far = elbow * low, elbow * high
