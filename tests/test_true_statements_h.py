@@ -112,7 +112,7 @@ def test_greatest_accelerations_of_both_corners_are_as_shown():
         assert float(told) == pytest.approx(abs(q @ weights).max(), abs=6e-5)
 
 
-def test_both_corners_can_blend_objects_of_the_class_that_the_lab_suggests():
+def test_objects_of_the_class_that_the_lab_suggests_can_blend_both_corners():
     """The test uses the class that the lab suggests, with the line of code printed there."""
     (line,) = re.findall(r"returns `(Joints\(.*?)`, and round", flat("03", "deeper-own"))
 

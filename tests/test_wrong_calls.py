@@ -910,7 +910,7 @@ def _outcome(call, arguments, seconds=SECONDS):
 
 
 class _watch:
-    """Raise TooLong after some seconds of CPU time, if the system has such a timer."""
+    """Raise TooLong after a few seconds of CPU time, if the system has such a timer."""
 
     def __init__(self, seconds):
         self.seconds = seconds

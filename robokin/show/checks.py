@@ -55,12 +55,12 @@ def plain(value: Any, name: str) -> str:
 
 
 def if_given(value: str | None, name: str) -> str | None:
-    """Return a title or an alternative text as `plain` does, or None if there is none."""
+    """Return a title or alt text as `plain` does, or None if there is none."""
     return None if value is None else plain(value, name)
 
 
 def sentence(title: str | None) -> list[str]:
-    """Return a title as the first sentence of an alternative text, in a list."""
+    """Return a title as the first sentence of the alt text, in a list."""
     return [title.rstrip(".") + "."] if title else []
 
 

@@ -30,10 +30,10 @@ WORDS_HERE: Mapping[str, str] = {
     "none": "no path",
     "where": "lever {lever}, after {percent} % of the motion",
     "sweeps": "lever {lever} sweeps H, after {percent} % of the motion",
-    "kept": "All levers stay at least {wanted} away from H. The least distance of the gripper is "
-    "{gripper}. S = {S}°.",
+    "kept": "All levers stay at least {wanted} away from H. The least distance between "
+    "gripper and H is {gripper}. S = {S}°.",
     "notKept": "Too near: the levers should stay at least {wanted} away from H. The least distance "
-    "of the gripper is {gripper}. S = {S}°.",
+    "between gripper and H is {gripper}. S = {S}°.",
     "scene": "{title}. {says}",
     "curveTitle": "distance from H, mm",
     "motionAxis": "share of the motion, %",

@@ -1,4 +1,4 @@
-"""The types of the data of explorers. The types of the data of an arm are in `twin`."""
+"""Types for the data of explorers. Those for the data of an arm are in `twin`."""
 
 from typing import Any, Literal, NotRequired, TypeAlias, TypedDict
 

@@ -39,7 +39,7 @@ WORDS_HERE = {
     "free": "free",
     "near": "The tool is {distance} mm from the singular pose; the angle between axes 4 and 6 is "
     "{bend}°.",
-    "isFree": "Singular: axes 4 and 6 are in one line. Joint 4 is free: joint 6 can undo its "
+    "isFree": "Singular: axes 4 and 6 are in line. Joint 4 is free: joint 6 can undo its "
     "rotation, so joint 4 need not turn at all.",
     "axis": "turns/s, with a miss of {miss} mm",
     "scene": "{name} with its tool at {place} mm on a line that passes {miss} mm beside the "

@@ -228,7 +228,7 @@ def _points(count: int) -> str:
 
 
 def _lost(l1: float, l2: float, p0: Sequence[float], points: Floats, inside: Bools) -> list[str]:
-    """Say why p0 and points are out of reach, to the precision that a drag can set."""
+    """Say why p0 and points are out of reach, to the precision of a drag."""
 
     def told(p: Sequence[float] | Floats) -> str:
         reasons = "; ".join(out_of_workspace(l1, l2, p))

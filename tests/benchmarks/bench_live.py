@@ -104,8 +104,8 @@ interact(toured, x=(-6.0, 6.0, 0.1), y=(-6.0, 6.0, 0.1));""",
     ),
 }
 
-# The time from each move to the task after the frame that shows the first answer to a question
-# asked after the move.
+# For each move, the time until the page shows the first answer to a later question. It ends with the
+# task that follows the frame.
 PAINTS = """root => {
   const moves = [];
   window.paints = [];

@@ -56,8 +56,8 @@ LISTEN = """() => {
         window.painted.push(performance.now()); return wipe.apply(this, a); };
     range.focus();
 }"""
-# The page itself sends the keys, at even intervals; otherwise, delays of the browser's driver would
-# count as ours.
+# The page itself sends the keys, at even intervals; otherwise, delays in the browser driver would
+# be counted as ours.
 KEYS = """async () => {
     const range = document.querySelector('[aria-label=blend]');
     range.value = 0; window.painted = [];
