@@ -118,9 +118,10 @@ def test_average_of_two_rotations_shrinks_by_the_stated_factor():
 
 
 def test_the_arm_reaches_the_pose_of_the_first_picture_in_eight_ways():
-    assert "The arm below reaches one and the same pose in eight ways" in flat("02", "title")
+    assert "An arm can reach one and the same pose in eight ways." in flat("02", "title")
     place = [
-        float(x) for x in re.findall(r"\[(\d+) \* mm, (\d+) \* mm, (\d+)", cells("02")["setup"])[0]
+        float(x)
+        for x in re.findall(r"\[(\d+) \* mm, (\d+) \* mm, (\d+)", cells("02")["opening"])[0]
     ]
     pose = Transform(Quaternion.from_angle_axis(90 * deg, Y), np.array(place) * mm)
     wanted = pose.as_matrix()
@@ -146,26 +147,45 @@ def test_only_joint_3_does_not_use_atan2_and_joint_6_can_undo_joint_4():
         code["triangle-code"].count("np.arccos") == 1
         and "gamma = -elbow * np.arccos" in code["triangle-code"]
     )
-    assert not [c for c in ("joint1-code", "wrist-code") if re.search(r"arc(cos|sin)", code[c])]
+    assert not re.search(r"arc(cos|sin)", code["wrist-code"])
     assert "At $q_5 = 0$ axes 4 and 6" in flat("02", "home")
     q = np.array([10, 20, -30, 0, 0, 50]) * deg
     back = IRB140.fk(q + [0, 0, 0, 1, 0, -1]).as_matrix()
     assert np.allclose(IRB140.fk(q).as_matrix(), back)
 
 
-def test_speeds_at_the_corner_and_the_excess_of_joint_2_are_as_stated():
-    before, after = numbers(
-        r"jumps from (\d+) mm/s along y to (\d+) mm/s along x", flat("02", "deeper-questions")
+def test_first_and_last_x_of_the_rows_in_the_lab_are_those_of_the_triangle():
+    """The target of the explorer in section 5, pulled along x: front -1 ends first."""
+    says = flat("02", "drag-target-look")
+    ends = numbers(
+        r"At x = (\d+) mm the four rows with front −1 vanish, at (\d+) mm the others", says
     )
-    made = run_cells("02", "setup", "task-code")
-    places = made["target"](np.array([9, 10, 11]), 20).translation / mm
-    assert np.diff(places, axis=0) == pytest.approx(np.array([[0, before, 0], [after, 0, 0]]))
-    assert "With this configuration joint 2 is always past its limit" in flat("02", "limits-look")
-    times = np.linspace(0, 20, 4001)
-    q2 = made["IRB140"].ik(made["target"](times, 20))[:, made["IRB140"].branch(+1, -1, +1), 1]
-    # between two samples the margin cannot shrink by more than q2 changes in a step
-    least = (IRB140.limits[1, 0] - q2).min()
-    assert least > 10 * abs(np.diff(q2)).max() > 0
+    ahead, more = numbers(r"shoulder is (\d+) mm ahead of axis 1.*up to (\d+) mm farther", says)
+    assert more == 2 * ahead == 140
+    rotation = Quaternion.from_roll_pitch_yaw(-30 * deg, 15 * deg, -15 * deg)
+    opened = shown("02", "drag-target")
+    assert "x 250, y −50, z 950, roll −30, pitch 15, yaw −15" in opened
+    x = np.arange(250, 900)
+    place = np.stack([x, np.full_like(x, -50), np.full_like(x, 950)], axis=-1)
+    centre = place - 65 * rotation.as_matrix()[:, 2]
+    for shoulder, end in zip((-ahead, ahead), ends, strict=True):
+        away = np.hypot(np.hypot(*centre.T[:2]) - shoulder, centre[:, 2] - 352)
+        assert x[np.argmax(away > 730)] == end
+
+
+def test_limits_of_the_moving_target_are_as_stated():
+    made = run_cells("02", "heights-player")
+    low, high = IRB140.limits.T
+    says = flat("02", "limits")
+    first, second, limit, none = numbers(
+        r"At (\d+) and (\d+) mm joint 3 starts past its limit of (\d+)°. From (\d+) mm on, none.",
+        says,
+    )
+    assert [first, second, none] == made["heights"][:3] and limit == high[2] / deg
+    for height, q in zip(made["heights"], made["chase"], strict=True):
+        past = (q < low - 1e-9) | (q > high + 1e-9)
+        assert past.any(axis=0).tolist() == [False, False, height < none, False, False, False]
+        assert past[0, 2] == (height < none)
 
 
 def test_axis_5_points_in_the_stated_direction():
@@ -181,17 +201,24 @@ def test_axis_5_points_in_the_stated_direction():
     axis = np.array([turn[2, 1] - turn[1, 2], turn[0, 2] - turn[2, 0], turn[1, 0] - turn[0, 1]]) / (
         2 * h
     )
-    forearm = run_cells("02", "setup", "chain-code")["my_chain"](q)[3].rotation.as_matrix()
+    forearm = run_cells("02", "chain-code")["my_chain"](q)[3].rotation.as_matrix()
     ways = {"below": -forearm[:, 2], "aside": forearm[:, 1]}
     assert np.arccos(axis @ ways["aside"]) / deg == pytest.approx(aside, abs=1e-3)
     assert np.arccos(axis @ ways["below"]) / deg == pytest.approx(below, abs=1e-3)
 
 
-def test_back_shoulder_is_farther_away_by_the_stated_distance():
+def test_the_triangle_closes_between_the_stated_distances():
     hint = find("irb140_kinematics.2", "exercises").hints[1]
-    ahead, more = numbers(r"At its height .* more than (\d+) mm ahead is (\d+) mm farther", hint)
-    for x in (ahead + 1, 300, 800):  # the shoulder is at +70 or -70 mm
-        assert abs(x + ahead) - abs(x - ahead) == more == 140
+    fore, upper, least, most = numbers(r"between (\d+) − (\d+) = (\d+) mm and .* = (\d+) mm", hint)
+    assert [least, most] == [fore - upper, fore + upper]
+    down = Quaternion.from_angle_axis(np.pi, [1, 0, 0])
+    for d in (1, least - 1, least + 1, most - 1, most + 1):  # above the shoulder, the tool down
+        rows = IRB140.ik(Transform(down, np.array([70, 0, 352 + d - 65]) * mm))
+        assert np.isfinite(rows[:4]).all() == (least < d < most)
+    ahead, more = numbers(
+        r"shoulder is (\d+) mm ahead of axis 1.* it is (\d+) mm away from there", hint
+    )
+    assert more == 2 * ahead == 140
 
 
 def test_speeds_of_joint_1_and_the_change_in_speed_at_via_are_as_stated():

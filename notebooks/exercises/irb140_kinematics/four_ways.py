@@ -12,8 +12,8 @@ from robokin.course.slips import METRES
 COUNT = 1
 GOAL = {
     "wanted": 4,
-    "holds": "Fulfilled: {count} ways exist.",
-    "open": "{count} ways exist, wanted are {wanted}.",
+    "holds": "{count} ways exist. Do all of them have front −1?",
+    "open": "{count} ways exist. The exercise asks for {wanted}.",
 }
 
 
@@ -33,10 +33,10 @@ def form(answer: Any, given: Any) -> Transform:
 
 
 def faults(pose: Transform, given: Any) -> list[Fault]:
-    """Exactly four rows have to exist, and no two of them may be the same posture."""
+    """Exactly the four rows with front -1 have to exist, and no two may be the same posture."""
     distance = float(np.linalg.norm(pose.translation))
     if distance > 5:
-        far = f"Your place is {distance:.0f} m away from the base. {METRES}"
+        far = f"Your flange is {distance:.0f} m away from the base. {METRES}"
         return [("mm for m", far)]
     rows = IRB140.ik(pose)
     exists = ~np.isnan(rows).any(axis=-1)
@@ -47,23 +47,29 @@ def faults(pose: Transform, given: Any) -> list[Fault]:
     if count == 8 and usable == 4:
         says = (
             "Four rows are inside the limits, but all eight exist. A row that is past a limit "
-            "counts here: it does reach the pose."
+            "counts here, because it does reach the pose."
         )
         return [("limits counted", says)]
     if count != 4:
-        inside = "none" if usable == 0 else f"{usable} of them"
         says = (
-            f"{count} rows of ik exist, {inside} inside the limits. Which step of the inverse can "
-            "fail for one front and hold for the other?"
+            f"{count} rows of ik exist. For which wrist centres does the triangle of front +1 not "
+            "close, while that of front −1 does?"
         )
         return [("all eight ways" if count == 8 else f"{count} ways", says)]
+    if exists[:4].any():
+        says = (
+            "Four rows exist, but they have front +1: your target is too far away for an arm that "
+            "faces away. The other four are wanted. A triangle also fails to close if the wrist "
+            "centre is too near to the shoulder."
+        )
+        return [("the rows that face the target", says)]
     names = [
         name for name, holds in IRB140.geometry.singularities(rows[exists]).items() if holds.any()
     ]
     if names:
         says = (
-            f"Four rows exist, but at a singularity ({', '.join(names)}): rows there are the same "
-            "posture twice, or joints are free. Move the pose a little."
+            f"The right four rows exist, but at a singularity ({', '.join(names)}). There two rows "
+            "are the same posture, or joints are free. Move the pose a little."
         )
         return [("rows twice: a singular pose", says)]
     return []

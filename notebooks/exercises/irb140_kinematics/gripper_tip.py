@@ -1,5 +1,5 @@
 """Cases, form and law of exercise 1; its text is in the Markdown file beside it, and its wrong
-programs also use `X`, `Z`, `L4`, `LAST_TURN` and `longer`.
+programs also use `X`, `Z`, `L4` and `LAST_TURN`.
 """
 
 from typing import Any
@@ -12,14 +12,16 @@ from robokin.course.told import apart
 
 from .shared import L4, Floats, X, Y, Z, turned
 
-__all__ = ["L4", "LAST_TURN", "X", "cases", "form", "law", "longer", "same"]
+__all__ = ["L4", "LAST_TURN", "X", "cases", "form", "law", "same"]
 
 LAST_TURN = Transform(turned(90 * deg, Y))  # the rotation at the end of the chain
 
 
-def longer(q: Floats) -> Transform:
-    """The flange pose of an arm whose upper arm is 360 mm long."""
-    more = IRB140.frames(q)[2].rotation @ (10 * mm * Z)
+def flange(q: Floats, upper: float) -> Transform:
+    """The flange pose of an arm whose upper arm has the length `upper`: the pose of the IRB-140,
+    shifted along the upper arm.
+    """
+    more = IRB140.frames(q)[2].rotation @ ((upper - 350 * mm) * Z)
     return Transform(translation=more) @ IRB140.fk(q)
 
 
@@ -27,19 +29,20 @@ def cases(rng: np.random.Generator) -> list[tuple[Any, ...]]:
     """Home, then one joint at a time, then random postures inside the limits."""
     home = np.zeros(6)
     found: list[tuple[Any, ...]] = [
-        (home, 100 * mm, 0.0),
-        (home, 100 * mm, 90 * deg),
-        (home, 0.0, -30 * deg),
-        (home, 0.0, 0.0),
+        (home, 350 * mm, 100 * mm, 0.0),
+        (home, 360 * mm, 100 * mm, 90 * deg),
+        (home, 360 * mm, 0.0, -30 * deg),
+        (home, 300 * mm, 0.0, 0.0),
     ]
     for k in range(6):
         q = np.zeros(6)
         q[k] = (90, 45, -60, 90, 30, 45)[k] * deg
-        found.append((q, 150 * mm, 60 * deg))
+        found.append((q, 360 * mm, 150 * mm, 60 * deg))
     low, high = IRB140.limits.T
     for _ in range(14):
         length, turn = float(rng.uniform(20, 300)) * mm, float(rng.uniform(-170, 170)) * deg
-        found.append((rng.uniform(low, high), length, turn))
+        upper = float(rng.uniform(250, 450)) * mm
+        found.append((rng.uniform(low, high), upper, length, turn))
     return found
 
 
@@ -61,20 +64,21 @@ def form(result: Any, case: tuple[Any, ...]) -> Transform:
 
 def law(case: tuple[Any, ...], yours: Transform, wanted: Transform) -> str | None:
     """Say how the tip, seen from the flange, differs from the gripper's tip."""
-    q, length, turn = case
-    seen = IRB140.fk(q).inverse() @ yours
+    q, upper, length, turn = case
+    seen = flange(q, upper).inverse() @ yours
     if abs(seen.translation - [0, 0, length]).max() > 1e-7:
         tip_at = in_mm(wanted.translation)
         there, is_at = apart(np.array([0, 0, length]) / mm, seen.translation / mm)
         return (
-            f"should be at {tip_at} mm: seen from the flange the tip is at ({there}) mm, yours is "
-            f"at ({is_at}) mm"
+            f"should be at {tip_at} mm: seen from the flange, the tip is at ({there}) mm, and "
+            f"yours is at ({is_at}) mm"
         )
     off = float(seen.rotation.angle_to(turned(turn, Z)))
     if off > 1e-7:
         return (
-            "stands in the right place, but not turned as it should be: seen from the flange by "
-            f"{turn / deg:.1f}° about z; yours is {apart(off / deg, 0)[0]}° away from that"
+            "is in the right place, but its rotation should be "
+            f"{turn / deg:.1f}° about z, seen from the flange; yours is "
+            f"{apart(off / deg, 0)[0]}° away from that"
         )
     return None
 

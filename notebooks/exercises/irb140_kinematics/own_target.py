@@ -87,8 +87,8 @@ def faults(design: Mapping[str, Any], given: Mapping[str, Any]) -> list[Fault]:
     if missing.any():
         i = int(missing.argmax())
         says = (
-            f"Out of reach in {missing.mean():.0%} of the time, first at t = {p[i] * duration:.2f} "
-            f"s. {explain(IRB140, poses[i], row)}"
+            f"Out of reach for {missing.mean():.0%} of the time, first at t = "
+            f"{p[i] * duration:.2f} s. {explain(IRB140, poses[i], row)}"
         )
         return [("out of reach", says)] * 4
     q = np.unwrap(rows, axis=0)
@@ -119,15 +119,15 @@ def past_limits(q: Floats, t: Floats) -> list[Fault]:
             ends = False
             ways = track[:, best] / deg
             lines.append(
-                f"Each sample alone has a value inside, and the motion has not: without a jump it "
-                f"goes from {ways.min():.1f}° to {ways.max():.1f}°, or whole turns away, past a "
-                "limit wherever it starts."
+                f"Each sample alone has a value inside, but the motion has not: without a jump it "
+                f"goes from {ways.min():.1f}° to {ways.max():.1f}°, or the same whole turns away. "
+                "It passes a limit wherever it starts."
             )
     if not names:
         return []
     which = f"joint {names[0]}" if len(names) == 1 else f"joints {listed(names)}"
     if ends:
-        lines.append("At both ends every joint is inside: look at the whole way.")
+        lines.append("At both ends every joint is inside: look at the motion in between.")
     return [(f"past a limit: {which}", " ".join(lines))]
 
 
@@ -149,14 +149,14 @@ def speeds(q: Floats, duration: float, given: Mapping[str, Any]) -> list[Fault]:
     reached, asked = apart(100 * most, 100 * share, 0)
     busiest = (
         f"Joint {k + 1} is the busiest: it reaches {reached} % of its speed limit at "
-        f"t = {i * dt:.2f} s; asked is at most {asked} %"
+        f"t = {i * dt:.2f} s, and it may reach {asked} %"
     )
     if most > EASE * share:
-        return [(f"too fast: joint {k + 1}", f"{busiest}. More time is needed.")]
+        return [(f"too fast: joint {k + 1}", f"{busiest}. The motion needs more time.")]
     if most * SLACK * EASE < share:
         says = (
-            f"{busiest}, and the duration may be {SLACK} times the shortest one. Speeds go with 1 "
-            "/ duration: less time will do."
+            f"{busiest}. The duration may be {SLACK} times the shortest one, and speeds are "
+            "proportional to 1 / duration: take less time."
         )
         return [("slower than asked", says)]
     return []

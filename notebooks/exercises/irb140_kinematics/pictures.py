@@ -17,11 +17,9 @@ from .predictions import (
     away_pose,
     moved,
     p4,
-    p5,
     p7,
     p8,
     p10,
-    pull,
     signed,
     task_1,
     texts_of,
@@ -36,12 +34,10 @@ def p1_view() -> Any:
 
 
 def p2_view() -> str:
-    lines = [
-        "The point 65 mm behind the flange, and the flange itself, when one joint turns by 90°:"
-    ]
+    lines = ["When one joint turns by 90°, the point 65 mm behind the flange and the flange move:"]
     for k in range(3, 6):
         point, flange = (moved(CENTRE_Q, k, 90 * deg, at) for at in (-L4 * Z, 0 * Z))
-        lines.append(f"joint {k + 1}: the point moves {point:.1f} mm, the flange {flange:.1f} mm")
+        lines.append(f"joint {k + 1}: the point by {point:.1f} mm, the flange by {flange:.1f} mm")
     return "\n".join(lines)
 
 
@@ -52,21 +48,11 @@ def p3_view() -> Any:
 
 
 def p4_view() -> str:
-    facts, lines = p4(), ["q4, q5, q6, and how far the orientation is from the target's:"]
+    facts, lines = p4(), ["q4, q5, q6, and how far the orientation is from that of the target:"]
     goal = IRB140.fk(WRIST_Q).rotation
     for wrist in (WRIST_Q[3:], *facts["options"].values()):
         got = IRB140.fk(np.array([*WRIST_Q[:3], *wrist])).rotation
         lines.append(f"{texts_of(wrist)}: {float(goal.angle_to(got)) / deg:.1f}° off")
-    return "\n".join(lines)
-
-
-def p5_view() -> str:
-    facts = p5()
-    lines = [
-        f"The four rows with front −1 are gone from x = {facts['first']:.0f} mm on, the other "
-        f"four from {facts['last']:.0f} mm on. At x = {facts['first'] + 1:.0f} mm:"
-    ]
-    lines += [explain(IRB140, pull((facts["first"] + 1) * mm), row) for row in (0, 4)]
     return "\n".join(lines)
 
 
@@ -85,7 +71,7 @@ def p6_view() -> str:
 def p7_view() -> Any:
     t, q, _ = task_1()
     facts = p7()
-    title = f"Flags 1, 1, 1: past a limit from {facts['first']:.2f} to {facts['last']:.2f} s"
+    title = f"Flags 1, 1, 1: inside every limit from {facts['last']:.2f} s on"
     return plot_joints(IRB140, t, q, title=title)
 
 
@@ -116,7 +102,7 @@ def p9_view() -> Any:
         {"miss": missed},
         xlabel="d, from joint 2 to the wrist centre, mm",
         ylabel="miss, mm",
-        title=f"Nearer than {LEAST:.0f} mm the arcsine misses in silence",
+        title=f"Nearer than {LEAST:.0f} mm the arcsine misses without a warning",
     )
     ax.axvline(LEAST, color=INK, lw=1, ls="--")
     ax.text(LEAST + 4, 45, "shoulder angle 90°")

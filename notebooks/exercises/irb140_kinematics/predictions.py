@@ -1,13 +1,14 @@
 """The facts behind the predictions of irb140 kinematics.
 
-Objective 1: p1, p2. Objective 2: p3 to p6, p9. Objective 3: p7, p8, p10. In Deeper: p9, p10.
+Objective 1: p1, p2. Objective 2: p3, p4, p6, p9. Objective 3: p7, p8, p10.
+Under "More": p3, p9, p7, p10.
 """
 
 from typing import Any
 
 import numpy as np
 
-from robokin import IRB140, Quaternion, Transform, deg, mm, within
+from robokin import IRB140, Transform, deg, mm, within
 from robokin.units import wrapped
 
 from .shared import L4, Floats, Z, listed, target
@@ -126,32 +127,6 @@ def texts_of(q: Any) -> str:
     return ", ".join(signed(float(x)) for x in np.where(half, np.pi, q))
 
 
-PULL_FROM = (250 * mm, -50 * mm, 950 * mm)
-PULL_TURN = np.array([-30, 15, -15]) * deg  # roll, pitch, yaw: the explorer's first position
-
-
-def pull(x: float) -> Transform:
-    """The explorer's target, pulled to x."""
-    return Transform(Quaternion.from_roll_pitch_yaw(*PULL_TURN.tolist()), (x, *PULL_FROM[1:]))
-
-
-def p5() -> dict[str, Any]:
-    """The rows that cease to exist first as x increases in steps of 1 mm."""
-    xs = np.arange(250, 900) * mm
-    exists = ~np.isnan(IRB140.ik(Transform(pull(0).rotation, [(x, *PULL_FROM[1:]) for x in xs])))
-    whole: Any = exists.all(axis=-1)
-    ends = [float(xs[track.argmin()]) / mm for track in whole.T]
-    first = IRB140.branches[np.array(ends) == min(ends)].tolist()
-    shared = [k for k in range(3) if len({flags[k] for flags in first}) == 1]
-    one = len(shared) == 1 and first[0][shared[0]] == -1
-    names = "front −1", "elbow −1", "wrist −1"
-    return {
-        "right": names[shared[0]] if one else "the orientation",
-        "first": min(ends),
-        "last": max(ends),
-    }
-
-
 def p6() -> dict[str, Any]:
     """The postures that reach the pose of the posture 0, 0, 0, 0, 0, 0."""
     pose = IRB140.fk(np.zeros(6))
@@ -182,12 +157,20 @@ def p7() -> dict[str, Any]:
         f"joint {k + 1} in {(~inside[:, k]).sum()}" for k in range(6) if not inside[:, k].all()
     ]
     (_, _, high3, _, high5, _) = IRB140.limits[:, 1]
-    some = "all but the corner" if past[1000] else "the last two thirds"
+    back = [float(t[~inside[:, k]][-1]) + 0.01 for k in (2, 4)]  # the first samples inside
+    share = 1 - past.mean()
+    shares = {
+        "all": 1.0,
+        "the last two thirds": 2 / 3,
+        "the sum": 1 - sum(back) / t[-1],
+        "nothing": 0.0,
+    }
     return {
-        "right": {0: "all", len(past): "nothing"}.get(int(past.sum()), some),
+        "right": min(shares, key=lambda name: abs(shares[name] - share)),
+        "first 3": back[0],
+        "first 5": back[1],
         "past": int(past.sum()),
-        "first": float(t[past][0]),
-        "last": float(t[past][-1]),
+        "last": float(t[past][-1]) + 0.01,
         "count": len(past),
         "samples": " and ".join(samples),
         "q3": signed(float(q[:, 2].max()), 1),
