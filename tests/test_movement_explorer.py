@@ -84,7 +84,9 @@ def test_page_finds_every_kink(levers, arm):
 
 
 def numbers(text):
-    """Return the numbers in the sentence below the curve, and what it says about where S is least."""
+    """Return the numbers in the sentence below the curve, and what it says about the place where S
+    is least.
+    """
     form = (
         r"gamma (.*)°, beta (.*)°, alpha (.*)°: S = (.*)° \+ (.*)° \+ (.*)° = (.*)°; the longest "
         r"turn is (.*)°\. The least S is (.*)°, at alpha = (.*)°: ([^.]*)\.(?: With the "

@@ -24,7 +24,8 @@ SENTENCES = {
     # singularities
     "shoulder": "{what} is as near to axis 1 as it can be (shoulder singularity), where the front "
     "and back rows meet",
-    "elbow": "the arm is stretched or folded (elbow singularity), where the two elbow rows coincide",
+    "elbow": "the arm is stretched or folded (elbow singularity), where the two elbow rows "
+    "coincide",
     "wrist": "axes 4 and 6 are in line (wrist singularity), so only the combined rotation of "
     "joints 4 and 6 is fixed",
 }

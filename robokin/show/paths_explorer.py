@@ -46,7 +46,8 @@ WORDS_HERE = {
     "one": "motor {motors} reverses",
     "several": "motors {motors} reverse",
     "and": WORDS["and"],
-    "blocked": "{same} The straight line is not possible: at {share}\N{NO-BREAK SPACE}% of it, {reason}.",
+    "blocked": "{same} The straight line is not possible: at {share}\N{NO-BREAK SPACE}% of it, "
+    "{reason}.",
     "out": "There is no path: {reason}.",
     "floor": "the goal is under the floor",
     "scene": "{name} and the paths of its gripper from the start to the goal at {values}. {says} "

@@ -104,8 +104,8 @@ interact(toured, x=(-6.0, 6.0, 0.1), y=(-6.0, 6.0, 0.1));""",
     ),
 }
 
-# For each move, the time until the page shows the first answer to a later question. It ends with the
-# task that follows the frame.
+# For each move, the time until the page shows the first answer to a later question. It ends with
+# the task that follows the frame.
 PAINTS = """root => {
   const moves = [];
   window.paints = [];
