@@ -33,7 +33,7 @@ from .explorer import (
     sizes,
     units,
 )
-from .explorer_page import Control, Corner, Law, MotionPage
+from .explorer_page import Control, Corner, Law, MotionPage, StartValues
 from .findings import flags
 from .palette import DASHES
 from .player import still_picture
@@ -89,18 +89,15 @@ def motion_explorer(
         return blend(start, via, goal, BLEND, progress(x))
 
     t = np.linspace(0, seconds, SAMPLES)
-    rows = arm.ik(path(t))
-    motions = [follow(arm, rows, k) for k in range(len(arm.branches))]
-    usable = [(record(arm, t, q).excess <= 0).all(axis=-1).sum() for q in motions]
-    row = int(np.argmax(usable)) if row is None else whole(row, "row", 0, len(usable) - 1)
-    through = motions[row][np.isfinite(motions[row]).all(axis=-1)][::40]
+    row, motion = _first_motion(arm, t, path, row)
+    through = motion[np.isfinite(motion).all(axis=-1)][::40]
     if yes(close_up, "close_up"):
         title, point, more = "a rounded corner", "a via point", ""
         result = _passes(arm, posed, path, seconds)
     else:
         title, point = "a blended motion", "a via point that can be moved"
         more = "You can move start and goal, too. "
-        result = _greatest_speed(arm, path, t, motions[row])
+        result = _greatest_speed(arm, path, t, motion)
     summary = (
         f"{arm.name} on a blended motion past {point}, {seconds:g} s, blend {BLEND:g}, branch "
         f"{flags(arm, row)}: {result}."
@@ -122,16 +119,10 @@ def motion_explorer(
         "start": pose_data(start),
         "via": pose_data(via),
         "goal": pose_data(goal),
-        "start_values": {
-            "blend": BLEND,
-            "duration": seconds,
-            "law": list(LAWS).index(law),
-            "corner": 0,
-            "row": row,
-        },
+        "start_values": _start_values(seconds, law, row),
         "laws": list(LAWS),
         "corners": list(CORNERS),
-        "branches": [flags(arm, k) for k in range(len(usable))],
+        "branches": [flags(arm, k) for k in range(len(arm.branches))],
         "samples": SAMPLES,
         "jumps": {"least": LEAP, "few": FEW},
         "panels": ["joint values q", "speeds q\N{PRIME}", "accelerations q\N{DOUBLE PRIME}"],
@@ -139,13 +130,36 @@ def motion_explorer(
     }
     still = still_picture(
         [arm.name],
-        [(arm, motions[row])],
+        [(arm, motion)],
         [Target(pose, name) for name, pose in posed.items()],
         data["scene"],
         data["title"],
         summary,
     )
     return Explorer(data, still)
+
+
+def _first_motion(
+    arm: ClosedFormArm, t: Floats, path: Callable[[Floats], Pose], row: int | None
+) -> tuple[int, Floats]:
+    """Return the branch that is shown at first and its motion (samples, n). If `row` is None, this
+    is the first of the branches with the most usable samples.
+    """
+    rows = arm.ik(path(t))
+    motions = [follow(arm, rows, k) for k in range(len(arm.branches))]
+    usable = [(record(arm, t, q).excess <= 0).all(axis=-1).sum() for q in motions]
+    row = int(np.argmax(usable)) if row is None else whole(row, "row", 0, len(usable) - 1)
+    return row, motions[row]
+
+
+def _start_values(duration: float, law: Law, row: int) -> StartValues:
+    return {
+        "blend": BLEND,
+        "duration": duration,
+        "law": list(LAWS).index(law),
+        "corner": 0,
+        "row": row,
+    }
 
 
 def _posed(arm: ClosedFormArm, stations: Mapping[str, Pose]) -> dict[str, Transform]:

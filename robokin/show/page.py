@@ -203,7 +203,7 @@ class PageAnswer(TypedDict):
 class PageQuestion(TypedDict):
     """The data of a prediction. `unit` and `within` (a fraction) are for a number that the reader
     types. `choice` is the choice in the notebook, if any. The view that answers the question is not
-    part of the data: it is HTML of the page.
+    part of the data: it is part of the page's HTML.
     """
 
     name: str

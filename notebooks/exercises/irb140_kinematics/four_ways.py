@@ -39,7 +39,7 @@ def faults(pose: Transform, given: Any) -> list[Fault]:
         far = f"Your flange is {distance:.0f} m away from the base. {METRES}"
         return [("mm for m", far)]
     rows = IRB140.ik(pose)
-    exists = ~np.isnan(rows).any(axis=-1)
+    exists = np.asarray(np.isfinite(rows).all(axis=-1))
     count = int(exists.sum())
     if count == 0:
         return [("no way: out of reach", f"No row of ik exists. {explain(IRB140, pose, 0)}")]
