@@ -61,7 +61,7 @@ MINUTES = {"core": 60, "whole": 90}
 SHORT = {"13_rotor": 30, "14_conveyor": 30}  # maximum minutes for the whole lab
 START = "00_start_here"  # it may take at most ten minutes without its exercise
 GAP = 10  # minutes
-MOVES = re.compile(r"^(?:\w+ = )?(?:animate|(?:\w+_)?explorer)\(", re.M)
+MOVES = re.compile(r"^(?:\w+ = )?(?:animate|(?:\w+_)?(?:explorer|player))\(", re.M)
 # Remove the rules for the old shape, here and in the tests, once every lab has the new shape.
 OLD = "## Deeper (optional)"
 OLD_MOST = Size(words=1800, cells=18, lines=200, sections=8, predictions=10, exercises=3)

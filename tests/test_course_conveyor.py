@@ -101,6 +101,8 @@ def test_numbers_used_in_the_predictions_are_correct():
     c = 2 * ways(BIN).min()
     _, options, right = filled(LAB.predictions["p1"])
     assert float(options[right].text) == math.ceil(c * 0.25 / 0.15) == 3
+    [slip] = [each for each in options if "mm/s by m" in each.reason]
+    assert float(slip.text) == pytest.approx(c * 250 / 0.15, abs=0.5)
     _, options, right = filled(LAB.predictions["p2"])
     soon = 200 - missed(0.15, 0.15, 0.5, 8, BIN, 1)
     first, free, done = np.cumsum(0.15 * (1 + 0.5 * np.random.default_rng(8).permutation(

@@ -182,10 +182,10 @@ def test_rows_are_usable_where_the_first_view_says():
 def test_first_come_rule_wins_at_the_stated_belt_speed():
     v, missed, total = said(
         "14",
-        "belt-curve-look",
+        "deeper",
         r"at (\d+) mm/s it misses (\d+) of the (\d+), and \"first come.*all\.",
     )
-    assert f"`{v:.0f} * mm`" in cells("14")["belt-curve-look"]
+    assert f"`{v:.0f} * mm`" in cells("14")["deeper"]
     assert (
         "v_belt = " in cells("14")["belt-work"]
         and "uneven = spaced(200, GAP, 0.5)" in cells("14")["belt-work"]

@@ -387,7 +387,7 @@ def test_first_come_rule_meets_its_objects_where_stated():
     passed, near, taken = numbers(
         r"lets (\d+) of the 200 pass, and meets (\d+) of its (\d+) in the near quarter", text
     )
-    made = run_cells("14", "setup", "belt-code", "belt-work")
+    made = run_cells("14", "belt-code", "belt-work")
     far = principal_postures(500 * mm, 400 * mm, made["WINDOW"]) - made["q_bin"]
     assert (np.diff(abs(far).max(axis=-1)) > 0).all(), (
         "places farther along the belt are farther from the bin"

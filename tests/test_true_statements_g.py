@@ -453,6 +453,24 @@ def test_belt_player_shows_the_streams_of_the_table(monkeypatch):
     assert busy[0] == 0 and busy[1] > 0 and busy[2] > 0
 
 
+def test_fourth_arm_has_work_only_when_the_objects_lie_unevenly(monkeypatch):
+    assert "**watch** arm 4: at 0 it stands still, at 0.5 and 1 it has work" in flat(
+        "14", "belt-uneven"
+    )
+    cell = cells("14")["belt-player"]
+    assert "speed = 300 * mm" in cell and "conveyor_player(speed, [0, 0.5, 1], arms=4)" in cell
+    # `animate` returns its arguments
+    monkeypatch.setattr("robokin.show.conveyor.animate", lambda *given, **named: (given, named))
+    (_, clock, motions), _ = conveyor_player(v=0.3, spreads=[0, 0.5, 1], arms=4)
+    for spread, q in zip([0, 0.5, 1], motions[3], strict=True):
+        left = belt_stream(spread, 8) / 0.3
+        for arm in range(4):
+            backs, left = one_arm(np.array(left) + (arm > 0) / 0.3, 0.3)
+        brought = sum(clock[0] < back < clock[-1] for back in backs)
+        moves = np.ptp(q, axis=0).max() > 0.1
+        assert moves == (brought > 0) == (spread > 0)
+
+
 def test_changing_only_alpha_to_plus_90_mirrors_the_arm_in_the_floor():
     words = flat("08", "deeper-more")
     assert "Turn the −90 of `alpha` into +90: on which side of the floor is the tool now?" in words

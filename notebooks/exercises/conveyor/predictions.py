@@ -26,6 +26,7 @@ def p1() -> dict[str, Any]:
         "one": 1 / c,
         "load": load,
         "inverse": 1 / load,
+        "mixed": load / mm,
         "up": ceil(load),
         "down": floor(load),
         "right": "rounded up",
