@@ -59,8 +59,8 @@ def faults(pose: Transform, given: Any) -> list[Fault]:
     if exists[:4].any():
         says = (
             "Four rows exist, but they have front +1: your target is too far away for an arm that "
-            "faces away. The other four are wanted. A triangle also fails to close if the wrist "
-            "centre is too near to the shoulder."
+            "faces away. The exercise asks for the other four. A triangle also fails to close if "
+            "the wrist centre is too close to the shoulder."
         )
         return [("the rows that face the target", says)]
     names = [
