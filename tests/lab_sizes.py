@@ -9,9 +9,6 @@ exercises. The script allows one minute per 170 words, one for each code cell, t
 prediction and twelve for each exercise. The whole lab also includes the part under "More". A gap is
 the time, in minutes, between two moving views before "Your turn"; views in predictions do not
 count.
-
-A lab that still has the heading "Deeper (optional)" has the old shape. The old limits apply to it:
-all of its predictions and exercises count, and the time is given without and with the exercises.
 """
 
 import json
@@ -46,14 +43,6 @@ class Length(NamedTuple):
     core: Size
     whole: Size
     gap: float  # the longest gap, in minutes
-    old: bool
-
-    @property
-    def minutes(self) -> tuple[float, float]:
-        """The time of the core path and of the whole lab or, in the old shape, the time without and
-        with the exercises.
-        """
-        return self.core.reading if self.old else self.core.minutes, self.whole.minutes
 
 
 CORE = Size(words=1200, cells=12, lines=150, sections=8, predictions=5, exercises=2)
@@ -62,10 +51,6 @@ SHORT = {"13_rotor": 30, "14_conveyor": 30}  # maximum minutes for the whole lab
 START = "00_start_here"  # it may take at most ten minutes without its exercise
 GAP = 10  # minutes
 MOVES = re.compile(r"^(?:\w+ = )?(?:animate|(?:\w+_)?(?:explorer|player))\(", re.M)
-# Remove the rules for the old shape, here and in the tests, once every lab has the new shape.
-OLD = "## Deeper (optional)"
-OLD_MOST = Size(words=1800, cells=18, lines=200, sections=8, predictions=10, exercises=3)
-OLD_READING = 60
 
 
 def measure(path: Path) -> Length:
@@ -75,18 +60,9 @@ def measure(path: Path) -> Length:
     more = _first(cells, r"^#+ More\b")
     end = _first(cells, r"^#+ In short")
     core, rest = _size(cells[:turn]), _size(cells[more:])
-    if old(cells):
-        every = _size(cells)
-        core = core._replace(predictions=every.predictions, exercises=every.exercises)
-        return Length(core, core, 0.0, True)
     tasks = sum(len(re.findall(r"^check\(", _text(cell), re.M)) for cell in cells[turn:end])
     core = core._replace(exercises=tasks)
-    return Length(core, Size(*map(sum, zip(core, rest, strict=True))), _gap(cells[:turn]), False)
-
-
-def old(cells) -> bool:
-    """Whether a lab with these cells has the old shape."""
-    return any(_text(cell).startswith(OLD) for cell in cells)
+    return Length(core, Size(*map(sum, zip(core, rest, strict=True))), _gap(cells[:turn]))
 
 
 def _first(cells, heading: str) -> int:
@@ -138,14 +114,9 @@ def words(text: str) -> list[str]:
 
 def too_long(name: str, length: Length) -> list[str]:
     """Return a message for each limit that the lab exceeds."""
-    core, whole, gap, old = length
+    core, whole, gap = length
     over = [f"{field} {getattr(core, field)} above {most}"
-            for field, most in (OLD_MOST if old else CORE)._asdict().items()
-            if getattr(core, field) > most]  # fmt: skip
-    if old:
-        over += [f"whole {whole.minutes:.0f} min above 90"] * (round(whole.minutes, 6) > 90)
-        most = 10 if name == START else OLD_READING
-        return over + [f"reading {core.reading:.0f} min above {most}"] * (core.reading > most)
+            for field, most in CORE._asdict().items() if getattr(core, field) > most]  # fmt: skip
     for part, size in (("core", core), ("whole", whole)):
         most = min(MINUTES[part], SHORT.get(name, 90))
         over += [f"{part} {size.minutes:.0f} min above {most}"] * (round(size.minutes, 6) > most)
@@ -159,12 +130,11 @@ def main() -> int:
           f"{'tasks':>6}{'core':>6}{'whole':>6}{'gap':>5}")  # fmt: skip
     long = 0
     for path in paths:
-        core, _, gap, _ = length = measure(path)
-        first, whole = length.minutes
+        core, whole, gap = length = measure(path)
         over = too_long(path.stem, length)
         long += bool(over)
         print(f"{path.stem:32}{core.words:6}{core.cells:6}{core.lines:6}{core.sections:9}"
-              f"{core.predictions:5}{core.exercises:6}{first:6.0f}{whole:6.0f}"
+              f"{core.predictions:5}{core.exercises:6}{core.minutes:6.0f}{whole.minutes:6.0f}"
               f"{gap:5.0f}  {'; '.join(over)}")  # fmt: skip
     print(f"{len(paths) - long} of {len(paths)} within the limits")
     return 1 if long else 0

@@ -66,7 +66,7 @@ def test_exercise_titles_and_optional_predictions_match_the_lab(lab):
     text = "\n".join(sources)
     for n, exercise in book.lab(lab).exercises.items():
         assert re.search(rf"^\*\*{n}\. {re.escape(exercise.title)}[.?]?\*\*", text, re.M)
-    [more] = [k for k, each in enumerate(sources) if each.startswith(("## More", lab_sizes.OLD))]
+    [more] = [k for k, each in enumerate(sources) if each.startswith("## More")]
     later = re.findall(r'^predict\("\w+\.(\w+)"\)$', "\n".join(sources[more:]), re.M)
     assert later == [n for n, each in book.lab(lab).predictions.items() if each.optional]
 
@@ -100,11 +100,8 @@ def test_last_cell_makes_the_report_and_your_turn_refers_to_it(lab):
     """The cell uses the student's name, which an earlier cell or its own first line sets."""
     sources = ["".join(c["source"]) for c in cells(lab)]
     end = next(k for k, text in enumerate(sources) if text.startswith("## In short"))
-    if lab_sizes.old(cells(lab)):  # in the old shape, the last cell of "Your turn" makes the report
-        assert re.search(r"^report\(who\)$", sources[end - 1], re.M)
-    else:
-        assert re.search(r"^report\(who\)$", sources[-1], re.M)
-        assert "last cell" in sources[end - 1].split("\n\n")[-1], "no line about the report"
+    assert re.search(r"^report\(who\)$", sources[-1], re.M)
+    assert "last cell" in sources[end - 1].split("\n\n")[-1], "no line about the report"
     named = re.findall(r'^who = "(.*)"$', "\n".join(sources), re.M)
     assert named == ["your name"]
     assert len(re.findall(r"\breport\(", code(lab))) == 1

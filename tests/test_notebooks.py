@@ -35,11 +35,7 @@ TEACHING, GLOSSARY = (
     NOTEBOOKS / "documents" / f"{name}.ipynb" for name in ("teaching", "glossary")
 )
 UNCOMPARED = {"nbval-ignore-output", "nbval-skip", "nbval-check-output", "raises-exception"}
-# labs with the old shape have "Deeper" instead of "More"
-PARTS = ("Your turn", "In short", "Next", "Deeper", "More")
-NEW_LABS = [
-    lab for lab in LABS if not lab_sizes.old(json.loads(lab.read_text(encoding="utf-8"))["cells"])
-]
+PARTS = ("Your turn", "In short", "Next", "More")
 every_lab = pytest.mark.parametrize("lab", LABS, ids=lambda path: path.stem)
 HEADINGS = ("You will be able to", "Your turn", "In short", "Next")
 
@@ -229,22 +225,17 @@ def test_labs_do_not_exceed_the_size_limits(lab):
 @every_lab
 def test_labs_open_with_a_view(lab):
     """A lab opens with a title and a claim, and a cell of at most four lines that shows a view and
-    needs no other cell. In a lab of the old shape, a folded set-up cell may come before it.
+    needs no other cell.
     """
     cells = json.loads(lab.read_text(encoding="utf-8"))["cells"]
     first, view = cells[:2]
-    if lab_sizes.old(cells):
-        view, setup = sorted(cells[1:3], key=lab_sizes.folded)
-        assert (cells[1] is view) == any("import" in line for line in view["source"])
-        assert lab_sizes.folded(setup) and "import" in "".join(setup["source"])
-    else:
-        assert not Cell("".join(view["source"])).reads - set(dir(builtins))
+    assert not Cell("".join(view["source"])).reads - set(dir(builtins))
     assert re.search(r"\n\*\*[^*]+[.?!]\*\*", "".join(first["source"])), "no claim in bold"
     assert not lab_sizes.folded(view) and len(view["source"]) <= 4
     assert any("rk" in "".join(o.get("data", {}).get("text/html", "")) for o in view["outputs"])
 
 
-@pytest.mark.parametrize("lab", NEW_LABS, ids=lambda path: path.stem)
+@every_lab
 def test_section_runs_alone_or_names_the_sections_to_run_first(lab):
     """The cells of a section read only names that are set in this section or in those that its text
     names: "Run section 2 first", "Run sections 2 and 4 first", 'Run "Your turn" first'. These
@@ -406,7 +397,8 @@ def test_minutes_in_the_teacher_notes_are_up_to_date():
     assert [row[1] for row in rows] == [lab.name for lab in LABS]
     for (number, _, core, whole), lab in zip(rows, LABS, strict=True):
         assert number == lab.stem[:2]
-        minutes = tuple(round(each) for each in lab_sizes.measure(lab).minutes)
+        length = lab_sizes.measure(lab)
+        minutes = round(length.core.minutes), round(length.whole.minutes)
         assert (int(core), int(whole)) == minutes, lab.stem
 
 

@@ -37,7 +37,7 @@ def table(source):
 
 
 def section_text(path, section):
-    """The text of a section, such as "§3", "Deeper" or "Your turn", or of the whole notebook for
+    """The text of a section, such as "§3", "More" or "Your turn", or of the whole notebook for
     ""; "" if the notebook has no such section.
     """
     cells = json.loads(path.read_text(encoding="utf-8"))["cells"]
