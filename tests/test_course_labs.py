@@ -6,7 +6,6 @@ import json
 import random
 import re
 
-import lab_sizes
 import nbformat
 import numpy as np
 import pytest
