@@ -194,7 +194,8 @@ def test_page_times_of_1000_orders_match_python(browser):
     page, rng = opened(browser), np.random.default_rng(21)
     page.goto("about:blank")
     page.add_script_tag(content=f"{script('own_tour')}\nwindow.found = $own_tour.found;")
-    data = {"words": tour_explorer(CIRCLE).data["words"], "speeds": SPEEDS.tolist()}
+    page_data = tour_explorer(CIRCLE).data
+    data = {key: page_data[key] for key in ("words", "slack")} | {"speeds": SPEEDS.tolist()}
     calls, wanted, on_axis = [], [], 0
     while len(calls) < 1000:
         points = some(rng, rng.integers(2, 9)).round(3)

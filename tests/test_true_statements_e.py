@@ -69,7 +69,7 @@ def apart(R, S):
 
 
 def test_every_lab_marks_values_to_change_with_a_try_comment():
-    assert "**Look at** says where to look, `# try` what to change" in flat("00", "how")
+    assert "**Look at** tells you where to look, and `# try` what to change" in flat("00", "how")
     for lab in range(15):
         assert any("# try" in text for text in cells(f"{lab:02}").values()), lab
 

@@ -6,7 +6,9 @@ states the tolerance of the values.
 """
 
 import base64
+import importlib
 import json
+import re
 from functools import cache
 from pathlib import Path
 
@@ -51,6 +53,7 @@ from robokin.arms import dh_links, unwrapped
 from robokin.arms.dexterity import velocity_ellipsoid
 from robokin.arms.elbow import elbow_arm
 from robokin.arms.geometry import ROUNDING
+from robokin.jobs.steppers import moves
 from robokin.motion import refined_maximum
 from robokin.motion.recording import FEW, LEAP
 from robokin.show.numbers import scale
@@ -961,3 +964,14 @@ def test_arm_with_an_unknown_geometry_has_no_inverse(twin, arm):
     rows = q[:, None]
     got = twin("return follow(arm, nested(a, 6, 1), 0).flat();", arm, rows, shape=(20, 6))
     close(got, follow(arm, rows, 0), 1e-14)
+
+
+def test_page_has_the_same_joint_and_the_same_tolerance_of_pulses():
+    singular = importlib.import_module("robokin.show.singularity_explorer")  # not its function
+    for script, name, value in (
+        ("singularity_explorer", "JOINT", singular.JOINT),
+        ("stepper_moves", "SLACK", moves.SLACK),
+    ):
+        text = (Path(robokin.show.__file__).parent / "js" / f"{script}.js").read_text()
+        (found,) = re.findall(rf"^(?:const|  ) ?{name} = ([\d.e-]+)[,;]", text, re.M)
+        assert float(found) == value

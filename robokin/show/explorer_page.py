@@ -281,8 +281,9 @@ class PlanPage(LivePage):
 
 class TourPage(LivePage):
     """The data of the tour explorer: the names of the kinds of tasks and of the tours, whether the
-    best one is shown at first, the speeds of the joints (rad/s), the maximum number of points, and
-    the places of points that the reader adds.
+    best one is shown at first, the speeds of the joints (rad/s), the fraction of T by which a time
+    may exceed T through rounding, the maximum number of points, and the places of points that the
+    reader adds.
     """
 
     kind: Literal["tour"]
@@ -290,6 +291,7 @@ class TourPage(LivePage):
     tours: list[str]
     best: bool
     speeds: list[float]
+    slack: float
     most: int
     spare: list[list[float]]
 

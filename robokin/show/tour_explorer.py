@@ -14,6 +14,7 @@ import numpy as np
 from .._arrays import Bools, Floats, Ints
 from .._validate import instance, short
 from ..arms import Arm, spbu_arm
+from ..arms.geometry import ROUNDING
 from ..jobs.visit_collect import (
     Result,
     Task,
@@ -131,6 +132,7 @@ def tour_explorer(task: Task, *, best: bool = True) -> Live:
         "tours": list(TOURS),
         "best": best,
         "speeds": task.speeds.tolist(),
+        "slack": ROUNDING,
         "most": MOST,
         "spare": [rounded(p, 4) for p in _spare(task)],
         "meant": MEANT,

@@ -11,8 +11,9 @@ import {toured} from "./tour_picture.js";
  * @param {State} state
  * @param {Heard} heard
  */
-export function found({words, speeds}, state, {answer, question: asking}) {
-  const mine = ownTour(asking, answer, state.order, speeds, words.late),
+export function found(data, state, {answer, question: asking}) {
+  const {words} = data,
+    mine = ownTour(data, asking, answer, state.order),
     all = answer.reached.flatMap((fine, k) => (fine ? k : []));
   state.best ||= all.length > 0 && all.every(k => state.order.includes(k));
   const own =
@@ -36,14 +37,13 @@ export function found({words, speeds}, state, {answer, question: asking}) {
  * The tour through the points in the reader's order, without those out of reach. As in `itinerary`
  * (solver.py), the arm returns to the start with each point that it collects, and a free joint
  * keeps its value. Points that are reached after T are listed only in the table.
+ * @param {TourExplorer} data
  * @param {Question} question
  * @param {Answer} answer
  * @param {number[]} chosen  the points in the reader's order
- * @param {number[]} speeds  the greatest speeds of the joints, rad/s
- * @param {string} late  the words before points that are reached too late
  * @returns {?FoundTour}  null if there is no tour
  */
-function ownTour({T, kind}, {postures}, chosen, speeds, late) {
+function ownTour({words, speeds, slack}, {T, kind}, {postures}, chosen) {
   const order = chosen.filter(k => postures[k + 1]);
   if (!postures[0] || !order.length) return null;
   const trip = kind === "collect" ? [0] : [], // where the arm goes after each point
@@ -55,9 +55,9 @@ function ownTour({T, kind}, {postures}, chosen, speeds, late) {
       t[k - 1] + Math.max(...speeds.map((v, j) => Math.abs(stops[k][j] - stops[k - 1][j]) / v)),
     );
   const times = order.map((_, k) => t[each * (k + 1)]),
-    count = times.filter(time => time - T <= ROUNDING * T).length;
+    count = times.filter(time => time - T <= slack * T).length;
   const parts = order.map((k, i) => `${k}\u00A0(${times[i].toFixed(2)})`),
-    after = count < order.length ? [`${late} ${parts.slice(count).join(", ")}`] : [];
+    after = count < order.length ? [`${words.late} ${parts.slice(count).join(", ")}`] : [];
   const last = each * count + 1;
   return {
     t: {values: Float32Array.from(t.slice(0, last)), shape: [last]},
@@ -71,8 +71,6 @@ function ownTour({T, kind}, {postures}, chosen, speeds, late) {
     ],
   };
 }
-
-const ROUNDING = 1e-12; // times T: a time that exceeds T by less is within T, as in solver.py
 
 /**
  * Postures whose free joints (null) have their values at the previous stop or, at the beginning,

@@ -593,6 +593,7 @@ export interface TourPage {
   tours: string[];
   best: boolean;
   speeds: number[];
+  slack: number;
   most: number;
   spare: number[][];
 }
