@@ -273,7 +273,9 @@ def _reads(body: Sequence[ast.stmt], sure: set[str]) -> set[str]:
             found |= _globals(compile(ast.Expression(statement.iter), "cell", "eval"))[0] - sure
             found |= _reads([*statement.body, *statement.orelse], sure | own)
             continue
-        reads, writes = _globals(compile(ast.Module([statement], []), "cell", "exec"))
+        # in a loop, since the statement may contain `continue` or `break`
+        loop = ast.fix_missing_locations(ast.While(ast.Constant(True), [statement], []))
+        reads, writes = _globals(compile(ast.Module([loop], []), "cell", "exec"))
         found |= reads - sure
         sure = sure | writes if isinstance(statement, SETS) else sure  # others may not run
     return found

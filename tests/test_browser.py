@@ -150,7 +150,7 @@ def test_player_works_in_jupyterlab(browser, jupyter, page, lab):
         page,
     )
     awake(page)
-    player = players.filter(has=page.get_by_label("playback speed")).first  # not an explorer
+    player = players.filter(has=page.locator(".rk-player")).first  # not an explorer
     player.scroll_into_view_if_needed()
     assert player.locator("img").count() == 0, "the still picture was not removed"
     for slider in _sliders(player):

@@ -1326,7 +1326,7 @@ def test_sentence_about_the_stroke_goes_where_lab_05_says(opened):
         shown.type("blend", blend_)
         shown.type("via z", height)
         says = shown.look().says
-        assert ("q4 is past its limit" in says) == past, (blend_, height, says)
+        assert ("q4 exceeds its limit" in says) == past, (blend_, height, says)
     assert "The path passes 68.0 mm from via." in says
 
 
