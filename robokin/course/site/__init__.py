@@ -80,6 +80,7 @@ def _gather(labs: Path, notebooks: list[Path], source: Path) -> None:
         copy = source / notebook.relative_to(labs)
         copy.parent.mkdir(exist_ok=True)
         shutil.copyfile(notebook, copy)
+    shutil.copytree(labs / "images", source / "images")
     _write(source / "labs.txt", "\n".join(map(_entry, sorted(labs.glob("*.ipynb")))))
     if not any(path.name == TEACHING for path in notebooks):
         first = (HERE / "index.md").read_text(encoding="utf-8")
