@@ -667,7 +667,7 @@ def test_deep_nesting_is_detected():
 
 
 LABS = {path.stem[:2]: path for path in NOTEBOOKS.glob("[0-9]*.ipynb")}
-SAMPLE = ("03", "08", "09", "10", "13")  # these labs contain every kind of view
+SAMPLE = ("01", "03", "06", "08", "09", "10", "11", "12")  # these labs contain every kind of view
 AWAKE = """() => [...document.querySelectorAll(".robokin-player")]
   .filter(each => each.checkVisibility())
   .map(each => "ready" in each.dataset && !each.querySelector(":scope > img"))"""
