@@ -92,6 +92,14 @@ function nameCurves(g, names, track, x, y) {
     heights = [track.right[i], track.left[i]].map(y),
     upper = Number(heights[1] < heights[0]);
   heights.forEach((height, k) =>
-    write(g, names[k], x(track.u[i]), height + (k === upper ? -9 : 19), colors.ink, 11, "center"),
+    write(
+      g,
+      names[k],
+      x(track.u[i]),
+      Math.max(height + (k === upper ? -9 : 19), 30), // below the title
+      colors.ink,
+      11,
+      "center",
+    ),
   );
 }

@@ -254,7 +254,7 @@ function drawSpace(pen, arms, [x, y, w, h], named) {
   const found = {labels: [], taken: []};
   for (const kind in KINDS) KINDS[kind].above({...pen, near: first.near}, only(kind), found);
   /** @type {Box[]} */
-  const written = [];
+  const written = named ? [] : [[x + w - 95, y, 95, 24]]; // the clock
   for (const one of all) drawFlange(one, written);
   written.push(...all.flatMap(one => one.handles?.(one.cam) ?? []));
   written.push(...compass(g, cam, [x + w - 34, y + h - 34]));

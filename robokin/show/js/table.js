@@ -27,7 +27,11 @@ export function table(names, heads, widths, take) {
         element(
           "thead",
           {},
-          element("tr", {}, ...heads.map(text => element("th", {scope: "col"}, text))),
+          element(
+            "tr",
+            {},
+            ...heads.map(text => (text ? element("th", {scope: "col"}, text) : element("td"))),
+          ),
         ),
       ]
     : [];

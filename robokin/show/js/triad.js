@@ -1,6 +1,6 @@
 // Draws the axes of a frame, and the directions of the base's axes in a corner.
 
-import {colors, stroke, write} from "./canvas.js";
+import {colors, hit, stroke, write} from "./canvas.js";
 import {dot, origin, plus} from "./kinematics.js";
 
 /** @import {Camera} from "./camera.js" */
@@ -17,7 +17,8 @@ export const AXES = /** @type {const} */ (["x", "y", "z"]);
  * @param {number} length
  * @param {number} width
  * @param {number} alpha
- * @param {Box[]} [letters]  if given, letters are written and their boxes are added to it
+ * @param {Box[]} [letters]  if given, letters are written where they do not cover these boxes, and
+ *   their own boxes are added
  * @returns {Pixel[]}  their tips on the screen
  */
 export function triad(g, cam, pose, length, width, alpha, letters) {
@@ -34,13 +35,16 @@ export function triad(g, cam, pose, length, width, alpha, letters) {
     return {name, tip};
   });
   if (letters)
-    for (const {name, tip} of tips) {
+    for (const {name, tip} of [...tips].reverse()) {
       const d = [tip[0] - from[0], tip[1] - from[1]],
         l = Math.hypot(...d);
       if (l <= 0.35 * length * cam.scale) continue;
       const [x, y] = [tip[0] + (8 * d[0]) / l, tip[1] + (8 * d[1]) / l];
+      /** @type {Box} */
+      const box = [x - 5, y - 6, 10, 13];
+      if (hit(box, letters)) continue;
       write(g, name, x, y + 4, colors[name], 12, "center", "600");
-      letters.push([x - 5, y - 6, 10, 13]);
+      letters.push(box);
     }
   g.globalAlpha = before;
   return tips.map(({tip}) => tip);
