@@ -338,7 +338,10 @@ def test_lab_00_can_be_handed_in_from_jupyterlab(jupyter, browser):
     cells = page.locator(".jp-CodeCell")
     for now, new in (
         ("my_posture = ...", solution("start_here.1")),
-        ('who = "your name"', 'who = "Zoë"\n\nreport(who)'),
+        (
+            'who = "your name"',
+            'from robokin.course import report\n\nwho = "Zoë"\n\nreport(who)',
+        ),
     ):
         cells.filter(has_text=now).locator(".cm-content").click()
         page.keyboard.press("Control+a")

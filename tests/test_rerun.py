@@ -38,7 +38,9 @@ def test_loop_does_not_read_a_variable_that_it_sets_first():
     cell = rerun.Cell("for a, b in pairs:\n    c = a + d\n    e(b, c)\nfor f in f:\n    g += f")
     assert cell.reads == {"pairs", "d", "e", "f", "g"}
     assert cell.writes == {"a", "b", "c", "f", "g"}
-    cell = rerun.Cell("for a in b:\n    if a:\n        continue\n    if c:\n        break\n    d = a")
+    cell = rerun.Cell(
+        "for a in b:\n    if a:\n        continue\n    if c:\n        break\n    d = a"
+    )
     assert cell.reads == {"b", "c"} and cell.writes == {"a", "d"}
 
 
