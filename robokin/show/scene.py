@@ -323,7 +323,7 @@ class Scene:
         """
         figure: Any = self.ax.figure
         box = self.ax.get_position(original=True)
-        side, below, above = 42, 46, 26
+        side, below, above = 46, 46, 26
         width, height = (
             np.array(fit or figure.get_size_inches()) * [box.width, box.height] * figure.dpi
         )
