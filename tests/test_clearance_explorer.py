@@ -14,6 +14,7 @@ from axe_playwright_python.sync_playwright import Axe
 from robokin import IRB140, deg, mm, three_lever
 from robokin.jobs.obstacles import along, clearance
 from robokin.show import clearance_explorer
+from robokin.units import in_words
 
 context, opened, twin = test_explorers.context, test_explorers.opened, test_twin.twin  # fixtures
 ARM, UNEVEN = three_lever(1.0), three_lever((0.9, 1.1, 0.6))
@@ -159,11 +160,15 @@ def test_arm_follows_the_curve_and_a_button_returns_to_the_nearest_moment(opened
     path = np.array(shown.code()["path"])
     for percent in (0, 25, 100):
         shown.type("motion", percent)
-        near = far(ARM, along(path, percent / 100), H).min()
-        assert f" {near / mm:.0f} mm" in shown.look().words[0]
+        each = far(ARM, along(path, percent / 100), H)
+        lever, near = ["OB", "BA", "AK"][each.argmin()], each.min()
+        assert f"{lever} {near / mm:.0f} mm" in shown.look().words[0]
+        said = f"The picture shows {percent} % of the motion: lever {lever} is {in_words(near)}"
+        assert shown.look().says.endswith(f"{said} from H.")
     shown.rk.get_by_role("button", name="Nearest moment").click()
     again = shown.look()
     assert (again.boxes["motion"], again.pixels) == (nearest, first.pixels)
+    assert again.says == first.says and "The picture shows" not in first.says
 
 
 def test_page_names_the_point_that_is_out_of_reach_and_says_why(opened):

@@ -94,8 +94,8 @@ TWINS = {
     ("SLACK", 1e-9): "test_page_has_the_same_joint_and_the_same_tolerance_of_pulses",
 }
 PLAIN = {*range(-1, 101), 0.002, 0.5, 200, 400}  # values that may be equal by chance
-# tolerances with a value that another tolerance in Python has, too, and a millimetre
-OTHER = {("KEPT", 1e-6), ("TINY", 1e-9), ("MM", 1e-3)}
+# tolerances whose values are equal to a tolerance of Python by chance
+OTHER = {("KEPT", 1e-6), ("TINY", 1e-9)}
 
 
 def numbers_of(path):

@@ -3,6 +3,7 @@ with a reason, and neither a browser nor a spreadsheet executes it.
 """
 
 import csv
+import errno
 import io
 import json
 import os
@@ -11,6 +12,7 @@ import shutil
 import threading
 import time
 from http.server import BaseHTTPRequestHandler, ThreadingHTTPServer
+from pathlib import Path
 
 import pytest
 from handed import SLUG, page, page_in, put, report_of, rows_of, table_in
@@ -316,16 +318,23 @@ def test_invalid_files_do_not_affect_the_others(tmp_path, monkeypatch, capsys):
     shutil.rmtree(folder)
 
 
-@pytest.mark.skipif(
-    not hasattr(os, "geteuid") or os.geteuid() == 0, reason="root can read every folder"
-)
-def test_unreadable_folder_is_reported(tmp_path):
+def test_unreadable_folder_is_reported(tmp_path, monkeypatch):
+    """The folder's rights cannot make it unreadable here: root can read every folder."""
     put(tmp_path / "closed" / "x.html", report_of("Ada"))
-    (tmp_path / "closed").chmod(0)
+    put(tmp_path / "y.html", report_of("Ada"))
+    scandir = os.scandir
+
+    def closed(folder):
+        if Path(folder) == tmp_path / "closed":
+            raise PermissionError(errno.EACCES, os.strerror(errno.EACCES), str(folder))
+        return scandir(folder)
+
+    monkeypatch.setattr(os, "scandir", closed)
     made = summary.summary(tmp_path)
-    (tmp_path / "closed").chmod(0o700)
     [left] = made.left_out
-    assert left.file == "closed" and "cannot be read" in left.reason and left.wrong
+    assert left.file == "closed" and left.wrong
+    assert left.reason == "a folder that cannot be read: Permission denied"
+    assert len(made.entries) == 1
 
 
 def test_long_texts_are_shortened_and_long_pages_are_read_quickly():

@@ -34,6 +34,7 @@ WORDS_HERE: Mapping[str, str] = {
     "gripper and H is {gripper}. S = {S}°.",
     "notKept": "Too near: the levers should stay at least {wanted} away from H. The least distance "
     "between gripper and H is {gripper}. S = {S}°.",
+    "now": "The picture shows {percent} % of the motion: lever {lever} is {distance} from H.",
     "scene": "{title}. {says}",
     "curveTitle": "distance from H, mm",
     "motionAxis": "share of the motion, %",

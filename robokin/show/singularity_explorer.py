@@ -111,6 +111,7 @@ def singularity_explorer(
         "kind": "singularity",
         **page,
         "words": WORDS_HERE,
+        "unit": {"name": "mm", "size": mm, "code": "mm"},
         "pose": pose_data(pose),
         "along": along.tolist(),
         "beside": beside.tolist(),

@@ -158,12 +158,8 @@ export function foundOf({arm, words, target, distance}, {path, motion}, state) {
 function told({words: says}, found) {
   if (found.why !== undefined)
     return {distance: says.none, where: "", kept: false, says: found.why, curve: found.why};
-  const {
-      least: {distance, index, share},
-      gripperLeast,
-      wanted,
-      motion,
-    } = found,
+  const {least: nearest, gripperLeast, wanted, motion, now} = found,
+    {distance, index, share} = nearest,
     kept = distance >= wanted;
   const facts = {
     lever: LEVERS[index],
@@ -173,12 +169,17 @@ function told({words: says}, found) {
     gripper: inWords(gripperLeast.distance),
     S: number(degrees(motion.S), 1),
   };
+  const shown = fill(says.now, {
+    percent: number(100 * now.share, 0),
+    lever: LEVERS[now.index],
+    distance: inWords(now.distance),
+  });
   const touches = distance < TOUCHES;
   return {
     distance: facts.distance,
     where: fill(touches ? says.sweeps : says.where, facts),
     kept,
-    says: fill(kept ? says.kept : says.notKept, facts),
+    says: fill(kept ? says.kept : says.notKept, facts) + (now === nearest ? "" : ` ${shown}`),
     curve: fill(says.curveSays, facts),
   };
 }

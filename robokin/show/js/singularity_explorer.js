@@ -28,7 +28,7 @@ import {degrees} from "./turns.js";
 /** @import {Explored, Stage} from "./stage.js" */
 
 /** @typedef {SingularityPage & {arm: ClosedFormArm}} SingularityExplorer */
-/** @typedef {"arm" | "pose" | "along" | "beside" | "row" | "speed"} LineKey */
+/** @typedef {"arm" | "unit" | "pose" | "along" | "beside" | "row" | "speed"} LineKey */
 /** @typedef {Pick<SingularityExplorer, LineKey>} Line */
 /** @typedef {[place: number, miss: number]} State  in mm: along the line, and beside the pose */
 /** @typedef {(k: number, value: number) => void} Change  changes the place (0) or the miss (1) */
@@ -44,7 +44,6 @@ import {degrees} from "./turns.js";
  */
 
 const JOINT = 3, // the index of joint 4
-  MM = 1e-3,
   LARGE = 10; // the number of steps by which an arrow key moves the handle with Shift
 
 /**
@@ -145,13 +144,13 @@ const onStep = ({low, high, step}, value) =>
 
 /**
  * A point on the line that passes the singular pose at this distance.
- * @param {Pick<Line, "pose" | "along" | "beside">} line
+ * @param {Pick<Line, "unit" | "pose" | "along" | "beside">} line
  * @param {number} place  mm
  * @param {number} miss  mm
  * @returns {Point}
  */
-const pointOn = ({pose, along, beside}, place, miss) =>
-  plus(plus(pose.place, along, place * MM), beside, miss * MM);
+const pointOn = ({unit: {size}, pose, along, beside}, place, miss) =>
+  plus(plus(pose.place, along, place * size), beside, miss * size);
 
 /**
  * Returns a function that maps a place on the line with this miss (both in mm) to the arm there. If
@@ -208,7 +207,8 @@ function curves(data, places) {
  * @returns {Handle}
  */
 function toolHandle(data, state, set) {
-  const [{low, step}] = data.controls;
+  const [{low, step}] = data.controls,
+    {size} = data.unit; // of one millimetre, in metres
   /** @type {(place: number) => Point} */
   const at = place => pointOn(data, place, state[1]);
   return {
@@ -218,8 +218,8 @@ function toolHandle(data, state, set) {
     at: () => at(state[0]),
     value: () => `${number(state[0], 0)} mm`,
     grab(camera) {
-      const to = alongCurve(camera, metres => at(metres / MM), state[0] * MM, MM);
-      return (dx, dy) => set(0, to(dx, dy) / MM);
+      const to = alongCurve(camera, metres => at(metres / size), state[0] * size, size);
+      return (dx, dy) => set(0, to(dx, dy) / size);
     },
     step: (right, up, big) => set(0, state[0] + (right + up) * step * (big ? LARGE : 1)),
     home: () => set(0, low),
