@@ -208,7 +208,7 @@ def test_one_shoulder_reaches_poses_that_the_other_does_not():
 def test_shorter_intervals_do_not_show_smaller_changes():
     _, options, _ = asked("irb140_motion.p5")
     reason = " ".join(options[0].reason.split())
-    assert reason.endswith("from one interval to the next, and by no less from a shorter one.")
+    assert reason.endswith("to the next, and by just as much when the intervals are shorter.")
     (said,) = numbers(r"changes by (\S+) rad/s", reason)
     rows = [
         line.split() for line in shown("03", "diff-halve").splitlines() if "speed jumps" in line
@@ -217,7 +217,7 @@ def test_shorter_intervals_do_not_show_smaller_changes():
     assert changes == sorted(changes) and any(round(each, 3) == said for each in changes)
     made = book.find("irb140_motion.p5", "predictions").facts()
     assert made["change"] == pytest.approx(changes[1], abs=1e-5)
-    assert "What doubles at half the step belongs to the method" in flat("03", "short")
+    assert "A number that doubles is a jump divided by the step" in flat("03", "short")
     told = "At the same blend the quintic gives the tool 1.5 times the parabola's greatest"
     assert told in written("irb140_motion")
     # x is the parameter of the corner; the control points are fractions of the path to via
