@@ -372,7 +372,7 @@ def test_question_in_jupyterlab_works_and_its_keys_trigger_no_notebook_commands(
     page.keyboard.press("ArrowUp")
     assert "limits" not in question.locator(".rk-answer").inner_text()
     page.keyboard.press("Enter")
-    expect(question.locator(".rk-answer")).to_contain_text("curve in the joints")
+    expect(question.locator(".rk-answer")).to_contain_text("inverse kinematics is not linear")
     question.locator(".rk-answer canvas").wait_for()
     beside.append(cell.evaluate(NEIGHBOURS))
     assert beside[0] == beside[1] and beside[0][1] and first.is_visible(), (

@@ -467,7 +467,7 @@ def _fits(arm, radius):
 
 def test_no_circle_larger_than_the_stated_one_fits():
     _, said = run("04", "circles", "limits-code")
-    radius = number(r"of the circle in front at most (\S+) mm", said) * mm
+    radius = number(r"of a circle about \(200, 0\) mm at most (\S+) mm", said) * mm
     assert _fits(SCARA, radius - 0.1 * mm) and not _fits(SCARA, radius + 0.1 * mm)
     text = sources("04")["limits-hole"]
     assert _fits(SCARA, number(r"Up to (\d+) mm the arm gets all the way around", text) * mm)

@@ -265,7 +265,7 @@ def test_first_lever_turns_by_the_stated_angle_if_the_second_is_short():
 
 def test_least_tool_speed_for_unit_joint_speeds_is_the_smaller_singular_value():
     words = flat("04", "deeper-jacobian")
-    assert "How fast is the tool, at the least, for joint speeds of length 1 rad/s?" in words
+    assert "= 1$ rad²/s², what is the lowest speed of the tool? It is the smallest" in words
     q = np.array([0.3, 0.5])
     J = 1e3 * np.array(
         [
