@@ -230,12 +230,13 @@ def _right(name):
 
 def test_tool_rotates_with_both_joints_as_prediction_1_says():
     a, b = (SCARA.fk(q).rotation for q in ([0, 0, 0, 0], [30 * deg, 30 * deg, -60 * deg, 0]))
-    assert np.allclose(a.as_matrix(), b.as_matrix()) and _right("p1") == "By −60°."
+    assert np.allclose(a.as_matrix(), b.as_matrix())
+    assert _right("p1") == "By −60°: it undoes the turns of both."
 
 
 def test_answer_to_prediction_3_agrees_with_inverse_kinematics():
     q1 = SCARA.ik(ScaraPose([0.2, 0.2, 0.1]))[1, 0]
-    assert _right("p3") == f"{q1 / deg:.1f}°."
+    assert _right("p3") == f"{q1 / deg:.1f}°: the triangle is mirrored in the line to the place."
 
 
 def test_arcsine_misses_the_target_as_prediction_4_says():
