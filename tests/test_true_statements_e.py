@@ -294,7 +294,7 @@ def test_quintic_corner_has_a_higher_peak_acceleration():
 
 def test_paths_need_only_a_lerp_method():
     words = flat("05", "short")
-    assert "paths ask a pose for its `lerp`, the Jacobian asks an arm for its links" in words
+    assert "LIN and the blend need only the `lerp` of a pose" in words
 
     class Place:
         def __init__(self, x):

@@ -120,7 +120,9 @@ def p6_view() -> str:
 
 
 def p7_view() -> str:
-    lines = ["Joint 3's greatest acceleration where both corners pass at the same distance from via:"]
+    lines = [
+        "Joint 3's greatest acceleration where both corners pass at the same distance from via:"
+    ]
     blends = np.array([0.05, 0.1, 0.15, 0.2])
     found = zip(blends, joint_3(blends, "parabola"), joint_3(blends / 0.75, "quintic"), strict=True)
     for b, parabola, quintic in found:
