@@ -215,6 +215,8 @@ def test_shorter_intervals_do_not_show_smaller_changes():
     ]
     changes = [float(row[4]) for row in rows]
     assert changes == sorted(changes) and any(round(each, 3) == said for each in changes)
+    least, most = numbers(r"joint 3 jumps by (\S+) to (\S+) rad/s", flat("03", "corner-worth"))
+    assert [round(changes[0], 2), round(changes[-1], 2)] == [least, most]
     made = book.find("irb140_motion.p5", "predictions").facts()
     assert made["change"] == pytest.approx(changes[1], abs=1e-5)
     assert "A number that doubles is a jump divided by the step" in flat("03", "short")

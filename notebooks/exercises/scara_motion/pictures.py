@@ -44,7 +44,7 @@ def p2_view() -> Any:
         f"q{i} from {low:.1f} to {high:.1f} {unit}" for i, (low, high, unit) in enumerate(ends, 1)
     )
     fig = figure(
-        f"The speeds of the four joints over time on the line: {told}. Only that of q4 is constant.",
+        f"The speeds of the joints over time on the line: {told}. Only that of q4 is constant.",
         WIDE,
         4.6,
     )
