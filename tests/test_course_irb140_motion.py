@@ -393,12 +393,13 @@ def _line_speeds(a, b, x, seconds):
 def test_answers_to_predictions_agree_with_other_methods():
     speeds = abs(np.array([_line_speeds(LEFT, RIGHT, x, 20) for x in np.arange(0, 1, 0.02)]))
     assert (speeds.max(axis=0) > 1.1 * speeds.min(axis=0)).all()
-    assert _right("p1") == "None of them."
+    assert _right("p1") == "None of them: a straight line in space is a curve in the joints."
 
     turns = abs(IRB140.ik(RIGHT)[ROW] - IRB140.ik(LEFT)[ROW])
     least, line = (turns / IRB140.speed_limits).max(), 20 * (speeds / IRB140.speed_limits).max()
     question = " ".join(filled(LAB.predictions["p2"])[0].split())
-    assert _right("p2") == f"Less than {line:.2f} s, but no less than PTP." and least < 0.6 * line
+    told = f"Less than {line:.2f} s, but no less than PTP: the joints have to turn as far."
+    assert _right("p2") == told and least < 0.6 * line
     assert f"took {line:.2f} s; PTP took {least:.2f} s" in question
 
     q0, q1 = np.zeros(6), np.zeros(6)

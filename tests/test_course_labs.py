@@ -260,9 +260,9 @@ def test_endless_answer_is_reported_and_the_kernel_survives():
             nbformat.v4.new_code_cell(source)
             for source in (
                 "from robokin.course import check, progress",
-                "def fraction_for(distance, corner):\n    while True:\n        try:\n"
+                "def blend_for(distance, corner):\n    while True:\n        try:\n"
                 "            distance += 1\n        except Exception:\n            pass\n"
-                'check("irb140_motion.1", fraction_for)',
+                'check("irb140_motion.1", blend_for)',
                 "print(1 + 1)",
                 "progress()",
             )

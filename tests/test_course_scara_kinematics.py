@@ -230,12 +230,13 @@ def _right(name):
 
 def test_tool_rotates_with_both_joints_as_prediction_1_says():
     a, b = (SCARA.fk(q).rotation for q in ([0, 0, 0, 0], [30 * deg, 30 * deg, -60 * deg, 0]))
-    assert np.allclose(a.as_matrix(), b.as_matrix()) and _right("p1") == "By −60°."
+    assert np.allclose(a.as_matrix(), b.as_matrix())
+    assert _right("p1") == "By −60°: it undoes the turns of both."
 
 
 def test_answer_to_prediction_3_agrees_with_inverse_kinematics():
     q1 = SCARA.ik(ScaraPose([0.2, 0.2, 0.1]))[1, 0]
-    assert _right("p3") == f"{q1 / deg:.1f}°."
+    assert _right("p3") == f"{q1 / deg:.1f}°: the triangle is mirrored in the line to the place."
 
 
 def test_arcsine_misses_the_target_as_prediction_4_says():
@@ -275,10 +276,11 @@ def test_only_one_elbow_stays_inside_its_limits_as_prediction_8_says():
     place = np.stack([0.2 + 0.07 * np.cos(omega), 0.07 * np.sin(omega), 0 * omega + 0.1], axis=-1)
     rows = SCARA.ik(ScaraPose(place, omega))
     ends = [follow(SCARA, rows, k)[-1, 2] / deg for k in (0, 1)]
-    assert np.allclose(ends, [315, 405], atol=0.05) and _right("p8") == "Elbow +1 alone."
+    assert np.allclose(ends, [315, 405], atol=0.05)
+    assert _right("p8") == "Elbow +1 alone: it starts farther from the upper limit."
 
 
 def test_answer_to_prediction_9_agrees_with_inverse_kinematics():
     q2 = SCARA.ik(ScaraPose([0.44, 0, 0.1]))[0, 1]
-    assert round(q2 / deg) == 24 and _right("p9") == "About 24°."
+    assert round(q2 / deg) == 24 and _right("p9").startswith("About 24°: near full reach,")
     assert _right("p2").startswith("540° with lerp, 180°")

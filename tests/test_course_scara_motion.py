@@ -497,9 +497,11 @@ def test_mistakes_in_the_design_are_named():
 
 def test_answers_to_predictions_agree_with_other_calculations():
     right = {name: filled(p)[1][filled(p)[2]].text for name, p in LAB.predictions.items()}
-    assert right["p1"] == "Joint 3 alone." and right["p2"] == "Joint 4 alone."
-    assert right["p3"] == "x and y." and right["p4"] == "On LIN alone."
-    assert right["p7"] == "Joint 3."
+    assert right["p1"] == "Joint 3 alone: the others only set the place."
+    assert right["p2"] == "Joint 4 alone: the tool rises or sinks evenly."
+    assert right["p3"] == "x and y."
+    assert right["p4"] == "On LIN alone: the line decides what the joints do."
+    assert right["p7"] == "Joint 3: 410° becomes 50°."
     assert float(right["p5"]) == -90 / 5 - 60 / 5
     assert float(right["p6"]) == 180
     assert float(right["p8"]) == pytest.approx(2 * 0.4 * 60 * 180 / 240, abs=0.5)

@@ -40,8 +40,8 @@ def test_answers_that_are_missing_raise_an_error_or_never_end_are_judged(tmp_pat
     lab = stored(
         tmp_path / "03_irb140_motion Ada.ipynb",
         IMPORTS,
-        "def fraction_for(distance, corner):\n    while True:\n        pass",
-        cell('check("irb140_motion.1", fraction_for)', "irb140_motion.1: does not hold."),
+        "def blend_for(distance, corner):\n    while True:\n        pass",
+        cell('check("irb140_motion.1", blend_for)', "irb140_motion.1: does not hold."),
         cell("'a check that was deleted'", "irb140_motion.2: holds."),
         "raise RuntimeError('no')\ndef speeds_are_right(speeds):\n    return True",
         'check("irb140_motion.3", speeds_are_right)',
@@ -93,12 +93,12 @@ def tricks(tmp_path_factory):
         "assert Path('data.csv').is_file() and not Path('tasks/pipe').exists()\n"
         "assert not [*Path().rglob('.robokin')] and not Path('images').exists()\n"
         "assert 'ROBOKIN_JUDGE' in os.environ",
-        "fraction_for = lambda distance, corner: 0.25\n"
+        "blend_for = lambda distance, corner: 0.25\n"
         "course._verdicts['irb140_motion.1'] = course.Verdict('irb140_motion.1', holds=True)\n"
         "_check, check = check, lambda *a: print('irb140_motion.1: holds.')",
         # an earlier call, which does not count
         'course.check("irb140_motion.1", lambda distance, corner: distance)',
-        'check("irb140_motion.1", fraction_for)',
+        'check("irb140_motion.1", blend_for)',
         f"started = {sleeper}), {sleeper}, start_new_session=True), {sleeper}, env={{}})\n"
         f"anew = subprocess.Popen([sys.executable, '-c', {anew!r}])\n"
         "print(*(each.pid for each in started))",

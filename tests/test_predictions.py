@@ -346,7 +346,7 @@ def test_markup_is_escaped(opened):
 
 
 # the kinds and sources of a cell and of the cells before and after it
-ASKS = "Which joints keep their speed?"  # in irb140_motion.p1, whose code is folded
+ASKS = "Which joints move at a constant speed?"  # in irb140_motion.p1, whose code is folded
 NEIGHBOURS = """cell => [cell.previousElementSibling, cell, cell.nextElementSibling].map(e =>
   e && [e.classList.contains("jp-CodeCell"),
         e.querySelector(".jp-InputArea")?.innerText.slice(0, 80)])"""
@@ -372,7 +372,7 @@ def test_question_in_jupyterlab_works_and_its_keys_trigger_no_notebook_commands(
     page.keyboard.press("ArrowUp")
     assert "limits" not in question.locator(".rk-answer").inner_text()
     page.keyboard.press("Enter")
-    expect(question.locator(".rk-answer")).to_contain_text("curve in the joints")
+    expect(question.locator(".rk-answer")).to_contain_text("inverse kinematics is not linear")
     question.locator(".rk-answer").scroll_into_view_if_needed()  # a view starts near the screen
     question.locator(".rk-answer canvas").wait_for()
     beside.append(cell.evaluate(NEIGHBOURS))
@@ -389,7 +389,8 @@ def test_untrusted_question_in_jupyterlab_explains_how_to_answer(jupyter, page):
     cell.scroll_into_view_if_needed()
     cell.get_by_text(ASLEEP).wait_for()
     text = cell.inner_text()
-    assert "d) None of them." in text and "curve in the joints" not in text
+    assert "d) None of them: a straight line" in text
+    assert "The inverse kinematics is not linear" not in text
     assert cell.locator(".rk-ask").count() == 0 and page.errors == []
 
 

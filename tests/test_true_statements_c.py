@@ -250,7 +250,7 @@ def test_hole_notch_and_areas_of_the_zone_are_as_stated():
     (hole,) = numbers(r"nearest point that is reached: +(\S+) mm", said)
     (notch,) = numbers(r"farthest one behind the column: (\d+) mm", said)
     assert f"then the tool is {hole:.0f} mm from the axis of joint 1" in flat("04", "able")
-    assert "a ring with a hole, and with a notch behind" in flat("04", "short")
+    assert "a ring with a notch at the back" in flat("04", "short")
     limits = np.array([[-140, 140], [-150, 150], [-400, 400], [0, 1]]) * [[deg], [deg], [deg], [1]]
     arm = scara_arm("zone", 220.2 * mm, 200 * mm, 250 * mm, limits)
     x = np.arange(1, 450) * mm
@@ -265,7 +265,7 @@ def test_hole_notch_and_areas_of_the_zone_are_as_stated():
 
 def test_joint_3_ends_where_stated_after_a_turn_in_either_direction():
     start, left, right, over = numbers(
-        r"starts at (\S+)°, so it ends at (\S+)° or at (\S+)°, and that is (\S+)° past",
+        r"starts at (\S+)°, so it ends at (\S+)° or at (\S+)°, which is (\S+)° past",
         flat("04", "follow-answer"),
     )
     q2 = np.arccos((270**2 - 200**2 - 250**2) / (2 * 200 * 250))  # at the start, 270 mm away

@@ -208,16 +208,18 @@ def test_one_shoulder_reaches_poses_that_the_other_does_not():
 def test_shorter_intervals_do_not_show_smaller_changes():
     _, options, _ = asked("irb140_motion.p5")
     reason = " ".join(options[0].reason.split())
-    assert reason.endswith("from one interval to the next, and by no less from a shorter one.")
+    assert reason.endswith("to the next, and by just as much when the intervals are shorter.")
     (said,) = numbers(r"changes by (\S+) rad/s", reason)
     rows = [
         line.split() for line in shown("03", "diff-halve").splitlines() if "speed jumps" in line
     ]
     changes = [float(row[4]) for row in rows]
     assert changes == sorted(changes) and any(round(each, 3) == said for each in changes)
+    least, most = numbers(r"joint 3 jumps by (\S+) to (\S+) rad/s", flat("03", "corner-worth"))
+    assert [round(changes[0], 2), round(changes[-1], 2)] == [least, most]
     made = book.find("irb140_motion.p5", "predictions").facts()
     assert made["change"] == pytest.approx(changes[1], abs=1e-5)
-    assert "What doubles at half the step belongs to the method" in flat("03", "short")
+    assert "A number that doubles is a jump divided by the step" in flat("03", "short")
     told = "At the same blend the quintic gives the tool 1.5 times the parabola's greatest"
     assert told in written("irb140_motion")
     # x is the parameter of the corner; the control points are fractions of the path to via
@@ -265,7 +267,7 @@ def test_first_lever_turns_by_the_stated_angle_if_the_second_is_short():
 
 def test_least_tool_speed_for_unit_joint_speeds_is_the_smaller_singular_value():
     words = flat("04", "deeper-jacobian")
-    assert "How fast is the tool, at the least, for joint speeds of length 1 rad/s?" in words
+    assert "= 1$ rad²/s², what is the lowest speed of the tool? It is the smallest" in words
     q = np.array([0.3, 0.5])
     J = 1e3 * np.array(
         [
@@ -294,7 +296,7 @@ def test_quintic_corner_has_a_higher_peak_acceleration():
 
 def test_paths_need_only_a_lerp_method():
     words = flat("05", "short")
-    assert "paths ask a pose for its `lerp`, the Jacobian asks an arm for its links" in words
+    assert "LIN and the blend need only the `lerp` of a pose" in words
 
     class Place:
         def __init__(self, x):

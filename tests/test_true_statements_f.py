@@ -179,7 +179,7 @@ def test_trapezoidal_law_brakes_at_full_strength_until_the_end():
     reason = one_line(option("irb140_motion.p4", "trapezoidal").reason)
     assert "brakes at full strength to the very end. The quintic law fades out." in reason
     bell = one_line(option("irb140_motion.p4", "triangle").second)
-    assert bell.endswith("a triangle needs twice the mean height, this bell needs less.")
+    assert bell.endswith("of that area needs twice the mean height, and this bell needs less.")
     law = np.polynomial.Polynomial([0, 0, 0, 10, -15, 6])
     slope, brake = law.deriv(), law.deriv(2)
     ramp = 0.25  # fraction of the time; peak speed / mean speed is 1 / (1 - ramp) = 4/3
@@ -230,7 +230,7 @@ def test_quintic_corner_raises_the_tools_peak_acceleration_by_the_stated_factor(
 def test_joint_4_can_have_two_values_inside_its_limits():
     others = "The value given for any other joint may be whole turns away from the values inside"
     one, two = says("irb140_motion", "only joint 6"), says("irb140_motion", "only joints 4 and 6")
-    assert f"{others} its limits, too, and of joint 4 two of them may be inside." in one
+    assert f"{others} its limits, too, and joint 4 may have two values inside." in one
     assert f"{others} its limits, too." in two
     given = np.arange(-180, 180, 0.5)[:, None] + 360 * np.arange(-4, 5)
     most = []

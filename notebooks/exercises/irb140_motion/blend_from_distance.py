@@ -42,7 +42,7 @@ def law(case: tuple[float, str], yours: float, wanted: float) -> str | None:
             return None
         most, asked = apart(SHARES[corner] * 0.5 * D / mm, distance / mm)
         return (
-            f"should be NaN: with the largest blend, 0.5, the tool passes via at {most} mm, and "
+            f"should be NaN: with the largest blend, 0.5, the tool passes {most} mm from via, and "
             f"the task asks for {asked} mm"
         )
     should = f"should be {wanted:.4g}: in the middle of the {corner} the tool is then"

@@ -31,7 +31,7 @@ from .shared import HIGH, LOW, MINUS, D
 
 
 def p1_view() -> Any:
-    title = "The tool keeps its speed, the joints do not"
+    title = "The tool moves at a constant speed, the joints do not"
     return plot_joints(IRB140, T, along(), differentiate(along(), T), title=title)
 
 
@@ -101,8 +101,8 @@ def p5_view() -> str:
             f"{a:.1f} rad/s²; differentiate(q, t, 2) {twice:.1f} rad/s²"
         )
     lines.append(
-        "The change of the speed stays, the quotients do not: the first belongs to the robot's "
-        "motion, the others to the method. (differentiate spreads the change over two steps, so "
+        "The change of the speed stays the same, the quotients do not: it belongs to the robot's "
+        "motion, they belong to the method. (differentiate spreads the change over two steps, so "
         "its quotient is about half as large.)"
     )
     return "\n".join(lines)
@@ -120,7 +120,9 @@ def p6_view() -> str:
 
 
 def p7_view() -> str:
-    lines = ["Joint 3's greatest acceleration where both corners pass via at the same distance:"]
+    lines = [
+        "Joint 3's greatest acceleration where both corners pass at the same distance from via:"
+    ]
     blends = np.array([0.05, 0.1, 0.15, 0.2])
     found = zip(blends, joint_3(blends, "parabola"), joint_3(blends / 0.75, "quintic"), strict=True)
     for b, parabola, quintic in found:

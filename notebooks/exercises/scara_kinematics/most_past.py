@@ -60,7 +60,7 @@ def law(case: Case, yours: Floats, right: Floats) -> str | None:
     for k, (unit, size) in enumerate(NAMES):
         if not abs(yours[k] - right[k]) <= 1e-6:
             most, got = apart(right[k] / size, yours[k] / size)
-            told = f"joint {k + 1} is at most {most}{unit} past its limits; yours says {got}{unit}"
+            told = f"joint {k + 1} exceeds its limits by up to {most}{unit}; yours says {got}{unit}"
             return told.translate(MINUS)
     return None
 

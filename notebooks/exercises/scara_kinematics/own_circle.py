@@ -114,7 +114,7 @@ def about_hole(hole: float, given: Given) -> Fault | None:
         return None
     named = (
         (1000 * right, "mm for m", f"The hole is {hole:g} m. {METRES}"),
-        (L2 - L1, "the hole of an arm that folds", "50 mm are left when the arm folds completely."),
+        (L2 - L1, "the hole of an arm that folds", "50 mm is left when the arm folds completely."),
         (
             distance(np.pi - stop),
             "the stop used as the angle inside the triangle",

@@ -102,7 +102,7 @@ def told(case: tuple[Any, ...], yours: Floats, wanted: Floats) -> str | None:
     if off[:2].any() and (abs(wrapped(yours[:2] - other[:2])) <= 1e-6).all():
         counts = ", which counts as positive" if q0[1] == 0 else ""
         return (
-            f"the elbow has changed its side: joint 2 stands at {q0[1] / deg:.1f}° in q0{counts}, "
+            f"the elbow has changed its side: joint 2 is at {q0[1] / deg:.1f}° in q0{counts}, "
             f"and yours ends at {yours[1] / deg:.1f}°. It should end at {wanted[1] / deg:.1f}°, "
             f"and joint 1 at {wanted[0] / deg:.1f}°"
         )
@@ -117,7 +117,7 @@ def told(case: tuple[Any, ...], yours: Floats, wanted: Floats) -> str | None:
     turns, yours_turns = apart(end - now, got - now)
     third, yours_third = apart(wanted[2] / deg, yours[2] / deg)
     return (
-        f"the tool stands at {now:.1f}°. It should turn by {turns}°, to {end:.1f}°, with joint 3 "
+        f"the tool is at {now:.1f}°. It should turn by {turns}°, to {end:.1f}°, with joint 3 "
         f"at {third}°. Yours turns it by {yours_turns}°, with joint 3 at {yours_third}°"
     )
 

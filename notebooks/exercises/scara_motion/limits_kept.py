@@ -92,7 +92,9 @@ def law(case: Case, yours: bool, wanted: bool) -> str | None:
         return None
     low, high = ends(limits, lengths)
     if wanted:
-        says = "every value of this motion keeps its limits (the limits included): True is right"
+        says = (
+            "every value of this motion is inside its limits (the limits included): True is right"
+        )
         sample, joint = divmod(int(np.argmin(np.minimum(q - low, high - q))), 4)
         value = float(q[sample, joint])
         limit = float(min(low[joint], high[joint], key=lambda x: abs(x - value)))

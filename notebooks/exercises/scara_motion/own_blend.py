@@ -81,14 +81,14 @@ def faults(answer: Given, mine: Given) -> list[tuple[str, str]]:
     passes = gap(mine, b)
     if passes > mine["miss"] * (1 + 1e-6):
         near, allowed = apart(passes / mm, mine["miss"] / mm)
-        says = f"The tool passes {near} mm from via, and {allowed} mm are allowed. "
+        says = f"The tool passes {near} mm from via, and at most {allowed} mm is allowed. "
         found.append(("too far from via", says + "Less blend brings it closer."))
     a = sum(over_via(mine)) / (b * duration**2)  # in the parabola's corner, where it is constant
     shortest = float(np.sqrt(sum(over_via(mine)) / b / most))
     needs, allowed = apart(a / mm, most / mm, 2)
     told = (
-        f"In {duration:g} s the stroke accelerates with {needs} mm/s² in the corner of your blend, "
-        f"and {allowed} mm/s² are allowed"
+        f"In {duration:g} s the stroke accelerates at {needs} mm/s² in the corner of your blend, "
+        f"and at most {allowed} mm/s² is allowed"
     )
     fast, slow = a > most * 1.002, duration > 1.02 * shortest
     if fast or slow:

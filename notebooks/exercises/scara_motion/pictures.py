@@ -44,7 +44,7 @@ def p2_view() -> Any:
         f"q{i} from {low:.1f} to {high:.1f} {unit}" for i, (low, high, unit) in enumerate(ends, 1)
     )
     fig = figure(
-        f"The speeds of the four joints over time on the line: {told}. Only q4 keeps its speed.",
+        f"The speeds of the joints over time on the line: {told}. Only that of q4 is constant.",
         WIDE,
         4.6,
     )
@@ -54,7 +54,7 @@ def p2_view() -> Any:
         ax.set(xlabel="t, s", title=f"q{i + 1}, {'mm' if i == 3 else '°'}/s")
         if i == 3:
             ax.set(ylim=(-8, 0))
-    fig.suptitle("Speeds on a line: only the stroke runs evenly")
+    fig.suptitle("Speeds on a line: only the stroke changes evenly")
     fig.tight_layout()
     return fig
 
