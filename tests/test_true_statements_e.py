@@ -312,7 +312,9 @@ def test_paths_need_only_a_lerp_method():
 
 def test_two_of_the_four_row_pairs_coincide_at_the_singular_pose():
     words = flat("06", "drag-target-look")
-    assert "two of the four such pairs become one: rows 2 and 3, and rows 4 and 5." in words
+    assert "There are four such pairs." in words
+    told = "the two rows of a pair become one in two of them: rows 2 and 3, and rows 4 and 5."
+    assert told in words
     pose = Transform(Quaternion.from_roll_pitch_yaw(0, np.pi / 2, 0), np.array([400, 0, 200]) * mm)
     q = ITMO6R.ik(pose)
     off = [abs(np.exp(1j * q[k]) - np.exp(1j * q[k + 1])).max() for k in (0, 2, 4, 6)]
@@ -320,7 +322,7 @@ def test_two_of_the_four_row_pairs_coincide_at_the_singular_pose():
 
 
 def test_phi_loses_digits_as_stated():
-    assert "rounding leaves $\\phi$ few digits" in flat("06", "root-look")
+    assert "rounding leaves few digits of $\\phi$" in flat("06", "root-look")
     rng, worst = np.random.default_rng(6), {}
     for theta in (1e-9, 5e-14):
         off = []
