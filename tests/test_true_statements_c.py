@@ -334,7 +334,7 @@ def test_the_corner_is_a_fraction_of_the_progress_and_only_joint_values_jump():
 
 def test_speeds_very_near_wrist_and_shoulder_singularities_are_as_stated():
     told = flat("07", "cross-jacobian")
-    assert "As $m$ goes to 0, their peak becomes a jump by half a turn" in told
+    assert "As $m$ goes to 0, their motion becomes a jump of half a turn" in told
     text = flat("07", "why")
     aligned = PUMA560.fk(np.array([0, 60, -170, 0, 0, 0]) * deg)
     for m in (1e-2, 1e-3):

@@ -342,7 +342,8 @@ def test_phi_loses_digits_as_stated():
 
 def test_unwrapping_matters_only_for_joint_6():
     words = flat("07", "choose-rule")
-    assert "This matters for joint 6 alone, with its range of 532°." in words
+    told = "If you ask it at every sample, only joint 6, with its range of 532°, can deceive it."
+    assert told in words
     low, high = PUMA560.limits.T
     assert ((high - low) / deg > 360).tolist() == [False] * 5 + [True]
     assert round((high - low)[5] / deg) == 532
@@ -397,7 +398,7 @@ def test_the_blocks_of_the_jacobian_have_the_stated_determinants():
 
 def test_statements_on_the_worst_case_and_the_ellipsoid_are_true():
     words = flat("07", "cross-jacobian")
-    assert "together, that joint speeds of length 1 rad/s can give." in words
+    assert "together) that a joint-speed vector of length 1 rad/s can give." in words
     q = np.array([10, 60, -93, 20, 30, 40]) * deg
     J = PUMA560.jacobian(q)
     J = np.vstack([J[:3] / PUMA560.reach, J[3:]])
@@ -405,7 +406,7 @@ def test_statements_on_the_worst_case_and_the_ellipsoid_are_true():
     sigma = float(LINE["near"](q))
     assert np.linalg.norm(J @ left) == pytest.approx(sigma)
     assert (np.linalg.norm(J @ np.random.default_rng(1).normal(size=(6, 50)), axis=0) > sigma).any()
-    assert "it goes flat, to 1 mm/s." in flat("07", "near-look")
+    assert "the ellipsoid goes flat, to 1 mm/s." in flat("07", "near-look")
     steps = 1e-6 * np.eye(6)
     q = np.array([0, 60, -87, 0, 0, 0]) * deg
     A = (PUMA560.fk(q + steps).translation - PUMA560.fk(q - steps).translation).T / 2e-6
