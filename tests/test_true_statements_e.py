@@ -499,7 +499,8 @@ def test_most_short_lines_keep_their_row():
 
 def test_motion_starts_gently_and_the_slider_sets_the_mean_speed():
     words = flat("08", "time-look")
-    assert "the player starts and stops gently, so its greatest speed is 15/8 of the mean" in words
+    told = "starts and stops gently: the slider sets the mean speed, and the peak is 15/8 of it."
+    assert told in words
     u = np.linspace(0, 1, 20001)
     law = 10 * u**3 - 15 * u**4 + 6 * u**5
     assert np.diff(law).max() * 20000 == pytest.approx(15 / 8, abs=1e-6)
