@@ -693,8 +693,8 @@ def test_each_of_two_joints_can_reduce_the_distance_from_a_singularity_to_0():
 
 def test_view_of_the_elbow_gives_the_printed_joint_values():
     said = sources("06")["position-look"]
-    told = r"r = (\d+) mm and z = (\d+) mm give the q2 and q3 of the first two lines, to 0.1°"
-    r, z = re.search(told, said).groups()
+    told = r"r = (\d+) mm and z = (\d+) mm give the q2 and q3 of the first two printed lines, "
+    r, z = re.search(told + "to 0.1°", said).groups()
     _, lines = run("06", "table-code", "position-code")
     printed = [list(map(float, x.split())) for x in re.findall(r"\[(.+?)\]", lines)][:2]
     for (_, q2, q3), elbow in zip(printed, (+1, -1), strict=True):

@@ -308,7 +308,7 @@ def test_errors_after_the_fix_are_as_stated_and_equal_sharing_turns_the_joints_l
 
 
 def test_the_corner_is_a_fraction_of_the_progress_and_only_joint_values_jump():
-    assert "a share $b$ of the progress $s$ on either side of via" in flat("07", "via")
+    assert "a share $b$ of the progress $s$ on either side of the via point" in flat("07", "via")
     made = run_cells("07", "via-code")
     start, via, goal = made["via_start"], made["via"], made["via_goal"]
     t = np.linspace(0, 10, 4001)

@@ -1,7 +1,7 @@
 """Statements that a second group of readers refuted, checked by a second calculation."""
 
 import re
-from itertools import pairwise
+from itertools import pairwise, product
 from math import comb
 
 import numpy as np
@@ -313,8 +313,8 @@ def test_paths_need_only_a_lerp_method():
 def test_two_of_the_four_row_pairs_coincide_at_the_singular_pose():
     words = flat("06", "drag-target-look")
     assert "There are four such pairs." in words
-    told = "the two rows of a pair become one in two of them: rows 2 and 3, and rows 4 and 5."
-    assert told in words
+    told = "two of these pairs become single postures: rows 2 and 3 are the same, and so are rows"
+    assert f"{told} 4 and 5." in words
     pose = Transform(Quaternion.from_roll_pitch_yaw(0, np.pi / 2, 0), np.array([400, 0, 200]) * mm)
     q = ITMO6R.ik(pose)
     off = [abs(np.exp(1j * q[k]) - np.exp(1j * q[k + 1])).max() for k in (0, 2, 4, 6)]
@@ -342,7 +342,7 @@ def test_phi_loses_digits_as_stated():
 
 def test_unwrapping_matters_only_for_joint_6():
     words = flat("07", "choose-rule")
-    told = "If you ask it at every sample, only joint 6, with its range of 532°, can deceive it."
+    told = "at every sample, it can go wrong for joint 6 alone, with its range of 532°."
     assert told in words
     low, high = PUMA560.limits.T
     assert ((high - low) / deg > 360).tolist() == [False] * 5 + [True]
@@ -376,6 +376,21 @@ def test_rows_4_to_6_end_with_a_joint_beyond_its_limit():
             if past[-1]:
                 wound.append(k)
     assert ends == [3, 4, 5, 6] and wound == [4, 5, 6]
+
+
+def test_longer_moves_to_rows_5_and_7_avoid_the_limit_of_joint_2():
+    assert "In rows 5 and 7 the best move is longer than the one to the values" in flat(
+        "07", "deeper-ptp-look"
+    )
+    made = run_cells("07", "deeper-ptp")
+    q, (low, high) = made["q_from"], PUMA560.limits.T
+    for row in (0, 2, 5, 7):
+        raw = made["options"][row]
+        kept = [raw + 2 * np.pi * np.array(turn) for turn in product((-1, 0, 1), repeat=6)]
+        kept = [each for each in kept if ((low <= each) & (each <= high)).all()]
+        longer = min(abs(each - q).sum() for each in kept) > abs(raw - q).sum() + 1e-9
+        outside = (np.flatnonzero((raw < low) | (raw > high)) + 1).tolist()
+        assert (longer, outside) == ((True, [2]) if row in (5, 7) else (False, []))
 
 
 def test_the_blocks_of_the_jacobian_have_the_stated_determinants():

@@ -479,7 +479,7 @@ def test_fourth_arm_has_work_only_when_the_objects_lie_unevenly(monkeypatch):
 
 def test_changing_only_alpha_to_plus_90_mirrors_the_arm_in_the_floor():
     words = flat("08", "deeper-more")
-    assert "Turn the −90 of `alpha` into +90: on which side of the floor is the tool now?" in words
+    assert "Change the −90 of `alpha` to +90: on which side of the floor is the tool now?" in words
     (made,) = re.findall(r"`(elbow_arm\(.*?\.limits\))`", words)
     assert made.count("-90") == 2  # so "the −90" alone was ambiguous
     space = {"np": np, "deg": deg, "dh_links": dh_links, "elbow_arm": elbow_arm}
