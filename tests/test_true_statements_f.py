@@ -455,8 +455,8 @@ def test_regular_formulas_lose_digits_at_the_stated_angle():
         for place in ("0", "180 degrees")
     )
     told = "its angles lose digits: try 1e-8 rad"
-    assert low == f"Near theta = 0 {told}, and angles just as near to 180 degrees."
-    high_told = f"{told} less than that, and angles just as near to 0."
+    assert low == f"Near theta = 0 {told}, and angles equally near to 180 degrees."
+    high_told = f"{told} less than that, and angles equally near to 0."
     assert high == f"Near theta = 180 degrees {high_told}"
     made = lab_06()
     book_way = made["textbook_wrist"]
