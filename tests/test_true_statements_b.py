@@ -95,7 +95,7 @@ def test_joint_5_flattens_the_ellipsoid_of_the_held_tool_and_joint_3_that_of_the
         "07",
         "near-look",
         r"joint 5 to (\S+): the shortest semi-axis goes from (\S+) mm/s to (\S+)\..*for every "
-        r"\$q_5\$, (\S+), (\S+) and (\S+) mm/s.*joint 3 to (\S+)°: it goes",
+        r"\$q_5\$, (\S+), (\S+) and (\S+) mm/s.*joint 3 to (\S+)°: the ellipsoid goes",
     )
     before = wrist_speeds([0, 60, -170, 0, 40, 0])
     assert before == pytest.approx(np.array(stated) * mm, abs=0.5 * mm)
@@ -232,7 +232,8 @@ def test_nearest_first_rule_loses_as_often_as_stated():
             left.remove(near)
         worse += 7 - len(left) < most
     assert made["beaten"] == worse < (last - first + 1) / 2
-    assert said("08", "visit-count-look", "(So greed is good enough in most of these tasks)")
+    told = "(So nearest first usually does as well as the best order)"
+    assert said("08", "visit-count-look", told)
 
 
 # --- Lab 09 ---------------------------------------------------------------------------------------

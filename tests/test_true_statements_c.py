@@ -308,7 +308,7 @@ def test_errors_after_the_fix_are_as_stated_and_equal_sharing_turns_the_joints_l
 
 
 def test_the_corner_is_a_fraction_of_the_progress_and_only_joint_values_jump():
-    assert "a share $b$ of the progress $s$ on either side of via" in flat("07", "via")
+    assert "a share $b$ of the progress $s$ on either side of the via point" in flat("07", "via")
     made = run_cells("07", "via-code")
     start, via, goal = made["via_start"], made["via"], made["via_goal"]
     t = np.linspace(0, 10, 4001)
@@ -334,7 +334,7 @@ def test_the_corner_is_a_fraction_of_the_progress_and_only_joint_values_jump():
 
 def test_speeds_very_near_wrist_and_shoulder_singularities_are_as_stated():
     told = flat("07", "cross-jacobian")
-    assert "As $m$ goes to 0, their peak becomes a jump by half a turn" in told
+    assert "As $m$ goes to 0, their motion becomes a jump of half a turn" in told
     text = flat("07", "why")
     aligned = PUMA560.fk(np.array([0, 60, -170, 0, 0, 0]) * deg)
     for m in (1e-2, 1e-3):

@@ -1,7 +1,7 @@
 """Statements that a second group of readers refuted, checked by a second calculation."""
 
 import re
-from itertools import pairwise
+from itertools import pairwise, product
 from math import comb
 
 import numpy as np
@@ -314,7 +314,9 @@ def test_paths_need_only_a_lerp_method():
 
 def test_two_of_the_four_row_pairs_coincide_at_the_singular_pose():
     words = flat("06", "drag-target-look")
-    assert "two of the four such pairs become one: rows 2 and 3, and rows 4 and 5." in words
+    assert "There are four such pairs." in words
+    told = "two of these pairs become single postures: rows 2 and 3 are the same, and so are rows"
+    assert f"{told} 4 and 5." in words
     pose = Transform(Quaternion.from_roll_pitch_yaw(0, np.pi / 2, 0), np.array([400, 0, 200]) * mm)
     q = ITMO6R.ik(pose)
     off = [abs(np.exp(1j * q[k]) - np.exp(1j * q[k + 1])).max() for k in (0, 2, 4, 6)]
@@ -322,7 +324,7 @@ def test_two_of_the_four_row_pairs_coincide_at_the_singular_pose():
 
 
 def test_phi_loses_digits_as_stated():
-    assert "rounding leaves $\\phi$ few digits" in flat("06", "root-look")
+    assert "rounding leaves few digits of $\\phi$" in flat("06", "root-look")
     rng, worst = np.random.default_rng(6), {}
     for theta in (1e-9, 5e-14):
         off = []
@@ -342,7 +344,8 @@ def test_phi_loses_digits_as_stated():
 
 def test_unwrapping_matters_only_for_joint_6():
     words = flat("07", "choose-rule")
-    assert "This matters for joint 6 alone, with its range of 532°." in words
+    told = "at every sample, it can go wrong for joint 6 alone, with its range of 532°."
+    assert told in words
     low, high = PUMA560.limits.T
     assert ((high - low) / deg > 360).tolist() == [False] * 5 + [True]
     assert round((high - low)[5] / deg) == 532
@@ -377,6 +380,21 @@ def test_rows_4_to_6_end_with_a_joint_beyond_its_limit():
     assert ends == [3, 4, 5, 6] and wound == [4, 5, 6]
 
 
+def test_longer_moves_to_rows_5_and_7_avoid_the_limit_of_joint_2():
+    assert "In rows 5 and 7 the best move is longer than the one to the values" in flat(
+        "07", "deeper-ptp-look"
+    )
+    made = run_cells("07", "deeper-ptp")
+    q, (low, high) = made["q_from"], PUMA560.limits.T
+    for row in (0, 2, 5, 7):
+        raw = made["options"][row]
+        kept = [raw + 2 * np.pi * np.array(turn) for turn in product((-1, 0, 1), repeat=6)]
+        kept = [each for each in kept if ((low <= each) & (each <= high)).all()]
+        longer = min(abs(each - q).sum() for each in kept) > abs(raw - q).sum() + 1e-9
+        outside = (np.flatnonzero((raw < low) | (raw > high)) + 1).tolist()
+        assert (longer, outside) == ((True, [2]) if row in (5, 7) else (False, []))
+
+
 def test_the_blocks_of_the_jacobian_have_the_stated_determinants():
     words = flat("07", "near")
     assert "span a parallelogram of area $l_2 l_3 |\\sin\\gamma|$" in words
@@ -397,7 +415,7 @@ def test_the_blocks_of_the_jacobian_have_the_stated_determinants():
 
 def test_statements_on_the_worst_case_and_the_ellipsoid_are_true():
     words = flat("07", "cross-jacobian")
-    assert "together, that joint speeds of length 1 rad/s can give." in words
+    assert "together) that a joint-speed vector of length 1 rad/s can give." in words
     q = np.array([10, 60, -93, 20, 30, 40]) * deg
     J = PUMA560.jacobian(q)
     J = np.vstack([J[:3] / PUMA560.reach, J[3:]])
@@ -405,7 +423,7 @@ def test_statements_on_the_worst_case_and_the_ellipsoid_are_true():
     sigma = float(LINE["near"](q))
     assert np.linalg.norm(J @ left) == pytest.approx(sigma)
     assert (np.linalg.norm(J @ np.random.default_rng(1).normal(size=(6, 50)), axis=0) > sigma).any()
-    assert "it goes flat, to 1 mm/s." in flat("07", "near-look")
+    assert "the ellipsoid goes flat, to 1 mm/s." in flat("07", "near-look")
     steps = 1e-6 * np.eye(6)
     q = np.array([0, 60, -87, 0, 0, 0]) * deg
     A = (PUMA560.fk(q + steps).translation - PUMA560.fk(q - steps).translation).T / 2e-6
@@ -498,7 +516,8 @@ def test_most_short_lines_keep_their_row():
 
 def test_motion_starts_gently_and_the_slider_sets_the_mean_speed():
     words = flat("08", "time-look")
-    assert "the player starts and stops gently, so its greatest speed is 15/8 of the mean" in words
+    told = "starts and stops gently: the slider sets the mean speed, and the peak is 15/8 of it."
+    assert told in words
     u = np.linspace(0, 1, 20001)
     law = 10 * u**3 - 15 * u**4 + 6 * u**5
     assert np.diff(law).max() * 20000 == pytest.approx(15 / 8, abs=1e-6)

@@ -455,8 +455,8 @@ def test_regular_formulas_lose_digits_at_the_stated_angle():
         for place in ("0", "180 degrees")
     )
     told = "its angles lose digits: try 1e-8 rad"
-    assert low == f"Near theta = 0 {told}, and angles just as near to 180 degrees."
-    high_told = f"{told} less than that, and angles just as near to 0."
+    assert low == f"Near theta = 0 {told}, and angles equally near to 180 degrees."
+    high_told = f"{told} less than that, and angles equally near to 0."
     assert high == f"Near theta = 180 degrees {high_told}"
     made = lab_06()
     book_way = made["textbook_wrist"]
@@ -483,9 +483,9 @@ def test_the_sampled_lines_do_not_show_which_rule_is_better():
     one, other = numbers(r"fail on (\d+) and (\d+) % of them\.", reason)[:1] + numbers(
         r"^It cannot finish (\d+) % of these", reason
     )
-    (scatter,) = numbers(r"a share would scatter by (\d+) points \(standard deviation\)", reason)
+    (scatter,) = numbers(r"such a share scatters by (\d+) points \(standard deviation\)", reason)
     assert scatter == round(100 * np.sqrt(0.42 * 0.58 / lines))
-    assert "these lines do not tell which of the first two rules is better." in reason
+    assert "these lines do not tell you which of the first two rules is better." in reason
     assert "the orientation over all rotations" in view("puma560_branches.p7")
     (low, high), rest = PUMA560.limits.T, np.array([0, 90, -90, 0, 0, 0]) * deg
     rng = np.random.default_rng(2107)  # a different sample, drawn in a different way
@@ -569,7 +569,7 @@ def test_player_shows_the_greatest_joint_speed_on_the_line():
 
 def test_flange_moves_nearly_in_the_arms_plane_at_the_nearest_point():
     reason = one_line(option("puma560_branches.p6", "as towards the axis").reason)
-    told = r"the flange moves, where it is nearest, nearly in the arm's own plane, (\S+)° from it"
+    told = r"it moves on the tangent nearly in the arm's own plane: (\S+)° away from it"
     (said,) = numbers(told, reason)
     pose = Transform(translation=np.array([151.05, 0, 1200]) * mm)
     q = PUMA560.ik(pose)[2]

@@ -86,8 +86,8 @@ def bin_on_the_axis(order, places, home, speed=0.2):
 def test_visiting_in_order_of_angle_turns_joint_1_least():
     second = one_line(option("visit_and_collect.p5", "container on axis 1").second)
     assert second.endswith(
-        "Take four objects around the axis: joint 1 turns least in the order of their angles, from "
-        "one side of its stop round to the other."
+        "Take four objects around the axis: joint 1 turns least if the arm takes them in the order "
+        "of their angles, from one end of its range to the other."
     )
     for angles in np.random.default_rng(4).uniform(-np.pi, np.pi, (200, 4)):
         turned = {o: abs(np.diff(angles[list(o)])).sum() for o in permutations(range(4))}
@@ -156,8 +156,9 @@ def touched(T, places):
 
 
 def test_greed_loses_two_points_and_none_at_the_stated_times():
-    told = r"Greed loses two points up to (\S+) s and none from (\S+) s on"
-    two, none = numbers(told, flat("08", "visit-look"))
+    told = r"From (\S+) to (\S+) s it loses two points, and from (\S+) s on none"
+    start, two, none = numbers(told, flat("08", "visit-look"))
+    assert start == 7.5
     places, legs = opening(), table(opening())
     lost = {T / 10: np.subtract(*touched(T / 10, places)[::-1]) for T in range(75, 300)}
     assert {T for T in lost if lost[T] == 2} == {T for T in lost if T <= two}
@@ -170,7 +171,7 @@ def test_greed_loses_two_points_and_none_at_the_stated_times():
 
 
 def test_point_3_comes_first_once_it_is_nearer_than_point_0():
-    assert "Once point 3 is nearer to p0 than point 0, nearest first takes it first" in flat(
+    assert "Once point 3 is nearer to p0 than point 0 is, nearest first goes there first" in flat(
         "08", "visit-look"
     )
     for azimuth in (-0.99, -0.9, -0.7, -0.5):
@@ -204,7 +205,8 @@ def test_path_over_the_axis_costs_the_whole_move_to_it():
 
 def test_another_factor_makes_another_point_the_nearest():
     words = flat("08", "visit-other-look")
-    assert "At 1 and 1.5 it is point 0, a lure. At 2 it is point 1, and greed does as well" in words
+    assert "At 1 and 1.5 it is point 0, a lure. At 2 it is point 1, and nearest first" in words
+    assert "nearest first does as well as the best order." in words
     for factor, first, equal in ((1, 1, False), (1.5, 1, False), (2, 2, True)):
         changed = [("uphill = 1.5", f"uphill = {factor}")]
         with contextlib.redirect_stdout(io.StringIO()):
@@ -277,7 +279,7 @@ def test_second_postures_gain_points_in_as_many_random_tasks_as_stated():
 
 def test_another_round_trip_beats_nearest_first_as_stated():
     reason = one_line(option("visit_and_collect.p5", "emptied at the end").reason)
-    assert "this is visiting with a way home. At" in reason
+    assert "this is visiting, with a return at the end. At" in reason
     told = r"At (\d+) s nearest first brings (\d) of the opening's points, and another order"
     T, few, many = numbers(rf"{told} brings (\d)\.", reason)
     legs = table(opening())
@@ -336,8 +338,10 @@ def test_time_to_collect_is_three_times_the_time_to_visit():
 
 def test_all_differences_are_negative_in_the_stated_range():
     words = flat("08", "check-look")
-    told = r"for a share of (\S+) or more and below (\S+) every difference is negative"
-    low, high = numbers(told, words)
+    (stated,) = numbers(r"a share of (\S+) in front: every difference is negative", words)
+    assert f"\nshare = {stated:g} " in cells("08")["check-code"]
+    low, high = 0.25, 1
+    assert low < stated < high and "`turned away` passes in the same way." in words
     aim = np.array([2.0, 3, 2])
     least = 1 / np.linalg.norm(aim)  # below this share, the place is nearer than 1 m
     assert least < low < high == 1
@@ -349,6 +353,8 @@ def test_all_differences_are_negative_in_the_stated_range():
         assert np.isnan(joints_of(share * aim)).all()
         assert not made["careless"](made["my_ik"](share * aim, 5, 4), aim)
     assert made["careless"](made["my_ik"](low * aim, 5, 4), aim)
+    away = made["programs"]["turned away"](aim)
+    assert made["careless"](away, aim) and (place_of(away) - aim < 1e-9).all()
     assert (
         min(
             float(each)
@@ -473,7 +479,7 @@ def test_fourth_arm_has_work_only_when_the_objects_lie_unevenly(monkeypatch):
 
 def test_changing_only_alpha_to_plus_90_mirrors_the_arm_in_the_floor():
     words = flat("08", "deeper-more")
-    assert "Turn the −90 of `alpha` into +90: on which side of the floor is the tool now?" in words
+    assert "Change the −90 of `alpha` to +90: on which side of the floor is the tool now?" in words
     (made,) = re.findall(r"`(elbow_arm\(.*?\.limits\))`", words)
     assert made.count("-90") == 2  # so "the −90" alone was ambiguous
     space = {"np": np, "deg": deg, "dh_links": dh_links, "elbow_arm": elbow_arm}

@@ -85,8 +85,8 @@ def p7_view() -> str:
 
 def p8_view() -> Any:
     fig = figure(
-        "The speed of joint 4 on two lines, from 5 mm before the middle to 5 mm after it. It goes "
-        f"up to {fastest(2 * mm):.0f}°/s on the line 2 mm beside the singular pose, and to "
+        "The speed of joint 4 on two lines, from 5 mm before the middle to 5 mm after it. It "
+        f"reaches {fastest(2 * mm):.0f}°/s on the line 2 mm beside the singular pose, and "
         f"{fastest(1 * mm):.0f}°/s on the line 1 mm beside it, but for half as long.",
         5.8,
         2.4,

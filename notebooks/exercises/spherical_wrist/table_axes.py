@@ -121,7 +121,7 @@ def law(case: tuple[Any, ...], yours: Axes, wanted: Axes) -> str | None:
         if not off <= 1e-6:
             return (
                 f"the axis of joint {i + 1} should go through ({place}) mm along ({along}); yours "
-                f"passes {apart(off / mm, 0)[0]} mm beside"
+                f"misses this point by {apart(off / mm, 0)[0]} mm"
             )
     return None
 
