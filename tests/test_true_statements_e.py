@@ -112,7 +112,7 @@ def test_statements_on_scalar_parts_speed_jumps_and_parallel_axes_are_true():
         real, *vector = (Quaternion([np.cos(q), *(np.sin(q) * u)]) @ way).wxyz * length
         assert (abs(real) < 1e-12) == (abs(u @ point) < 1e-12)
         assert real**2 + (u @ vector) ** 2 == pytest.approx((u @ point) ** 2)
-    assert "Each speed but joint 4's jumps" in flat("01", "line-look")
+    assert "Every speed except joint 4's jumps" in flat("01", "line-look")
     assert "q4 0%" in shown("01", "line-code") and "q5 0%" not in shown("01", "line-code")
     _, options, _ = asked("frames_and_quaternions.p4")
     assert any("The IRB-140's shoulder and elbow axes are parallel" in o.second for o in options)

@@ -46,7 +46,9 @@ def missed(q: Any) -> list[Fault]:
     x, y, z = place(q)
     if abs(z - HEIGHT) > NEAR:
         name = "too low" if z < HEIGHT else "too high"
-        says = f"The tool should be at a height of {HEIGHT} mm, but it is at {z:.0f} mm. Use joint 2."
+        says = (
+            f"The tool should be at a height of {HEIGHT} mm, but it is at {z:.0f} mm. Use joint 2."
+        )
         found.append((name, says))
     if x <= 0 or abs(x - y) > NEAR:
         name = "x and y differ"
