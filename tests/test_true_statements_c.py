@@ -192,7 +192,7 @@ def test_limits_of_the_moving_target_are_as_stated():
     says = flat("02", "limits")
     first, second, limit, none = numbers(
         r"At (\d+) and (\d+) mm joint 3 starts past its limit of (\d+)°. "
-        r"From (\d+) mm on, no joint does.",
+        r"From (\d+) mm on, no joint exceeds a limit.",
         says,
     )
     assert [first, second, none] == made["heights"][:3] and limit == high[2] / deg
