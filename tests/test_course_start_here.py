@@ -2,10 +2,14 @@
 named, and the answer to the prediction is computed by another method.
 """
 
+import json
+import re
+
 import numpy as np
 import pytest
+from conftest import NOTEBOOKS
 
-from robokin import IRB140, deg, mm
+from robokin import IRB140, deg, mm, within
 from robokin.course import book, check, solution
 from robokin.course.questions import filled
 
@@ -95,3 +99,32 @@ def test_answer_to_prediction_1_agrees_with_a_rotation_about_z():
     reasons = " ".join(option.reason for option in options)
     for angle in ("140°", "\N{MINUS SIGN}140°", "50°"):  # the directions of the other options
         assert f"at {angle}" in reasons
+
+
+def cell(name):
+    """The source of a cell of the lab."""
+    notebook = json.loads((NOTEBOOKS / "00_start_here.ipynb").read_text(encoding="utf-8"))
+    (found,) = ["".join(each["source"]) for each in notebook["cells"] if each["id"] == name]
+    return found
+
+
+def test_joint_5_exceeds_its_limit_on_the_lines_that_the_lab_names():
+    """The tool points down, so the tilt of the forearm gives joint 5, and the law of cosines gives
+    the tilt.
+    """
+    names = {}
+    exec(cell("slider").split("print(")[0], names)
+    assert np.allclose(names["lines"][..., 3], 0, atol=1e-9), "joint 4 moves"
+    inside = within(IRB140, names["lines"])
+    assert inside[..., [0, 1, 2, 3, 5]].all()
+    ahead, past = np.hypot(350, np.linspace(-350, 350, 2001)) - 70, []
+    for height in names["heights"]:
+        up = height + 65 - 352
+        gamma = np.arccos((ahead**2 + up**2 - 350**2 - 380**2) / (2 * 350 * 380))
+        upper_arm = np.arctan2(up, ahead) + np.arctan2(
+            380 * np.sin(gamma), 350 + 380 * np.cos(gamma)
+        )
+        past.append((upper_arm - gamma + 90 * deg > 115 * deg).any())
+    assert past == (~inside[..., 4]).any(axis=1).tolist()
+    first = float(re.search(r"From (\d+) mm on, joint 5 exceeds its limit", cell("slider-look"))[1])
+    assert past == (names["heights"] >= first).tolist() and 0 < sum(past) < len(past)

@@ -118,11 +118,13 @@ def test_average_of_two_rotations_shrinks_by_the_stated_factor():
 
 
 def test_the_arm_reaches_the_pose_of_the_first_picture_in_eight_ways():
-    assert "An arm can reach one and the same pose in eight ways." in flat("02", "title")
+    assert "This arm reaches the pose below in eight ways." in flat("02", "title")
     place = [
         float(x)
         for x in re.findall(r"\[(\d+) \* mm, (\d+) \* mm, (\d+)", cells("02")["opening"])[0]
     ]
+    x, *rest = (f"{each:.0f}" for each in np.subtract(place, [65, 0, 0]))  # the wrist centre
+    assert f"place = np.array([{x}, {', '.join(rest)}]) * mm" in cells("02")["triangle-code"]
     pose = Transform(Quaternion.from_angle_axis(90 * deg, Y), np.array(place) * mm)
     wanted = pose.as_matrix()
 
@@ -138,6 +140,17 @@ def test_the_arm_reaches_the_pose_of_the_first_picture_in_eight_ways():
             if not any(abs(np.exp(1j * q) - np.exp(1j * old)).max() < 1e-4 for old in found):
                 found.append(q)
     assert len(found) == 8
+
+
+def test_lengths_of_the_links_are_as_stated():
+    said = [float(x) for x in re.findall(r"l_\d = (\d+)", flat("02", "chain"))]
+    home, bent = np.zeros(6), np.array([0, 0, 0, 0, 90, 0]) * deg
+    _, _, shoulder, elbow, *_, flange = IRB140.frames(home).translation / mm
+    chord = np.linalg.norm(IRB140.fk(bent).translation / mm - flange)
+    last = chord / np.sqrt(2)  # joint 5 moves the flange through a quarter of a circle
+    forearm = flange[0] - last - elbow[0]
+    found = [shoulder[2], shoulder[0], elbow[2] - shoulder[2], forearm, last]
+    assert said == pytest.approx(found)
 
 
 def test_only_joint_3_does_not_use_atan2_and_joint_6_can_undo_joint_4():
@@ -178,7 +191,8 @@ def test_limits_of_the_moving_target_are_as_stated():
     low, high = IRB140.limits.T
     says = flat("02", "limits")
     first, second, limit, none = numbers(
-        r"At (\d+) and (\d+) mm joint 3 starts past its limit of (\d+)°. From (\d+) mm on, none.",
+        r"At (\d+) and (\d+) mm joint 3 starts past its limit of (\d+)°. "
+        r"From (\d+) mm on, no joint exceeds a limit.",
         says,
     )
     assert [first, second, none] == made["heights"][:3] and limit == high[2] / deg
@@ -189,8 +203,8 @@ def test_limits_of_the_moving_target_are_as_stated():
 
 
 def test_axis_5_points_in_the_stated_direction():
-    aside, below = numbers(
-        r"axis 5, (\d+) degrees from aside and (\d+)", shown("02", "matrix-figure")
+    side, down = numbers(
+        r"axis 5, (\d+) degrees from side and (\d+) from down", shown("02", "matrix-figure")
     )
     q = np.array([-30, 10, 0, 35, 50, 40]) * deg
     assert "np.array([-30, 10, 0, 35, 50, 40]) * deg" in cells("02")["matrix-figure"]
@@ -202,9 +216,9 @@ def test_axis_5_points_in_the_stated_direction():
         2 * h
     )
     forearm = run_cells("02", "chain-code")["my_chain"](q)[3].rotation.as_matrix()
-    ways = {"below": -forearm[:, 2], "aside": forearm[:, 1]}
-    assert np.arccos(axis @ ways["aside"]) / deg == pytest.approx(aside, abs=1e-3)
-    assert np.arccos(axis @ ways["below"]) / deg == pytest.approx(below, abs=1e-3)
+    ways = {"down": -forearm[:, 2], "side": forearm[:, 1]}
+    assert np.arccos(axis @ ways["side"]) / deg == pytest.approx(side, abs=1e-3)
+    assert np.arccos(axis @ ways["down"]) / deg == pytest.approx(down, abs=1e-3)
 
 
 def test_the_triangle_closes_between_the_stated_distances():

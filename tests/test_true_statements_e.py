@@ -112,7 +112,7 @@ def test_statements_on_scalar_parts_speed_jumps_and_parallel_axes_are_true():
         real, *vector = (Quaternion([np.cos(q), *(np.sin(q) * u)]) @ way).wxyz * length
         assert (abs(real) < 1e-12) == (abs(u @ point) < 1e-12)
         assert real**2 + (u @ vector) ** 2 == pytest.approx((u @ point) ** 2)
-    assert "Each speed but joint 4's jumps" in flat("01", "line-look")
+    assert "Every speed except joint 4's jumps" in flat("01", "line-look")
     assert "q4 0%" in shown("01", "line-code") and "q5 0%" not in shown("01", "line-code")
     _, options, _ = asked("frames_and_quaternions.p4")
     assert any("The IRB-140's shoulder and elbow axes are parallel" in o.second for o in options)
@@ -196,13 +196,15 @@ def test_moving_the_tip_along_base_x_is_right_only_if_the_tool_points_that_way()
 
 
 def test_one_shoulder_reaches_poses_that_the_other_does_not():
-    assert "there is no triangle: this front does not reach." in flat("02", "triangle")
+    says = "the wrist centre is too far from this shoulder ($d > l_2 + l_3$) or too near ($d < l_3"
+    assert says in flat("02", "triangle")
     down = Quaternion.from_angle_axis(np.pi, [1, 0, 0])
-    fronts = set()
-    for x in np.linspace(0.3, 0.9, 61):
-        rows = np.isfinite(IRB140.ik(Transform(down, [x, 0, 0.5]))).all(axis=1)
-        fronts.add((rows[:4].any(), rows[4:].any()))
-    assert (True, False) in fronts
+    for height, wanted in ((500, (True, False)), (352 - 65, (False, True))):
+        fronts = set()
+        for x in np.linspace(0.05, 0.9, 86):
+            rows = np.isfinite(IRB140.ik(Transform(down, [x, 0, height * mm]))).all(axis=1)
+            fronts.add((rows[:4].any(), rows[4:].any()))
+        assert wanted in fronts
 
 
 def test_shorter_intervals_do_not_show_smaller_changes():

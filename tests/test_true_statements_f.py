@@ -73,7 +73,7 @@ def test_lerp_between_rotations_is_not_a_rotation():
 def test_test_in_the_last_hint_for_slerp_detects_every_mistake():
     exercise = book.find("frames_and_quaternions.3", "exercises")
     hint = one_line(exercise.hints[2])
-    more = "and pairs a rotation of 30° and of 175° apart, as in hint 2, and (a, a), and (a, -a)"
+    more = "and pairs that are 30° and 175° apart, as in hint 2, and also (a, a) and (a, -a)"
     assert more in hint
     shares = [float(each) for each in re.search(r"[Ff]or s in \((.*?)\)", hint)[1].split(",")]
     rights = [exercise.program(text) for _, text in exercise.rights]

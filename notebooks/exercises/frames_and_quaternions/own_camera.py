@@ -204,7 +204,7 @@ def turns(look: Floats) -> tuple[tuple[str, Floats, str], ...]:
             "the order of the rotations",
             tilted(look) @ swung(look) @ Z,
             "Your two rotations are in the wrong order: the tilt is about an axis of the rotated "
-            "camera, so its factor is at the right.",
+            "camera, so its factor belongs on the right.",
         ),
         ("looks up", look * [1, 1, -1], "It points up as steeply as it should point down."),
         ("mirrored", look * [1, -1, 1], "Its y has the wrong sign: look at your rotation about z."),
@@ -215,8 +215,8 @@ def turns(look: Floats) -> tuple[tuple[str, Floats, str], ...]:
         (
             "sine and cosine of the slope exchanged",
             unit(np.append(look[:2] / max(level, 1e-9) * abs(look[2]), -level)),
-            "Its slope is the right angle, but measured from the wrong line: from z instead of "
-            "from the horizontal, or the other way round.",
+            "The angle of its slope is right, but you measured it from the wrong line: from z "
+            "instead of from the horizontal, or the other way round.",
         ),
         (
             "looks level",

@@ -24,11 +24,11 @@ def form(answer: Any, given: Any) -> Transform:
     hint = ""
     with np.errstate(all="ignore"):
         if np.shape(answer) == (6,):
-            hint = ": six numbers are a posture, IRB140.fk(q) is its pose"
+            hint = ": six numbers are a posture; IRB140.fk(q) gives its pose"
         elif np.shape(answer) == (3,):
             hint = ": a place without an orientation"
         elif np.shape(answer) == (4, 4):
-            hint = "; Transform.from_matrix makes one of it"
+            hint = "; Transform.from_matrix turns it into one"
     raise ValueError(f"Wanted one Transform, got {in_words(answer)}{hint}.")
 
 
@@ -46,8 +46,8 @@ def faults(pose: Transform, given: Any) -> list[Fault]:
     usable = int(within(IRB140, rows).all(axis=-1).sum())
     if count == 8 and usable == 4:
         says = (
-            "Four rows are inside the limits, but all eight exist. A row that is past a limit "
-            "counts here, because it does reach the pose."
+            "Four rows are inside the limits, but all eight exist. A row counts even if a joint "
+            "is past its limit, because it does reach the pose."
         )
         return [("limits counted", says)]
     if count != 4:

@@ -58,7 +58,7 @@ def form(result: Any, case: tuple[Any, ...]) -> Transform:
     elif np.shape(result) == (3,):
         hint = ": a place without an orientation"
     elif np.shape(result) == (4, 4):
-        hint = "; Transform.from_matrix makes one of it"
+        hint = "; Transform.from_matrix turns it into one"
     raise ValueError(f"Wanted one Transform, got {in_words(result)}{hint}.")
 
 

@@ -119,9 +119,10 @@ def past_limits(q: Floats, t: Floats) -> list[Fault]:
             ends = False
             ways = track[:, best] / deg
             lines.append(
-                f"Each sample alone has a value inside, but the motion has not: without a jump it "
-                f"goes from {ways.min():.1f}° to {ways.max():.1f}°, or the same whole turns away. "
-                "It passes a limit wherever it starts."
+                "Each sample alone has a value inside, but the whole motion does not stay inside: "
+                f"without a jump, the joint goes from {ways.min():.1f}° to {ways.max():.1f}°, or "
+                "through the same range shifted by whole turns. It passes a limit wherever it "
+                "starts."
             )
     if not names:
         return []

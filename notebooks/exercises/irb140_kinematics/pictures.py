@@ -34,7 +34,7 @@ def p1_view() -> Any:
 
 
 def p2_view() -> str:
-    lines = ["When one joint turns by 90°, the point 65 mm behind the flange and the flange move:"]
+    lines = ["How far the point and the flange's origin move when one joint turns by 90°:"]
     for k in range(3, 6):
         point, flange = (moved(CENTRE_Q, k, 90 * deg, at) for at in (-L4 * Z, 0 * Z))
         lines.append(f"joint {k + 1}: the point by {point:.1f} mm, the flange by {flange:.1f} mm")

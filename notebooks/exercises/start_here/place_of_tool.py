@@ -46,13 +46,15 @@ def missed(q: Any) -> list[Fault]:
     x, y, z = place(q)
     if abs(z - HEIGHT) > NEAR:
         name = "too low" if z < HEIGHT else "too high"
-        says = f"The tool is at a height of {z:.0f} mm; {HEIGHT} mm are wanted. Joint 2 changes it."
+        says = (
+            f"The tool should be at a height of {HEIGHT} mm, but it is at {z:.0f} mm. Use joint 2."
+        )
         found.append((name, says))
     if x <= 0 or abs(x - y) > NEAR:
         name = "x and y differ"
-        says = f"x is {x:.0f} mm and y is {y:.0f} mm; wanted are equal numbers, both positive."
+        says = f"x is {x:.0f} mm and y is {y:.0f} mm; they should be equal and positive."
         if x > 0 and abs(x + y) <= NEAR:
-            name, says = "right for left", f"{says} To the left y is positive."
+            name, says = "right for left", f"{says} On the left, y is positive."
         elif abs(x - y) <= NEAR:
             name = "behind the arm"
         found.append((name, minus(says)))
