@@ -411,7 +411,7 @@ def arms_needed(v, spread, seed):
 def test_belt_table_shows_one_stream_and_other_streams_need_one_more_arm():
     words = flat("14", "belt-look")
     assert "at all six speeds. At spread 0.5 it is one arm too few at three of them, at" in words
-    assert "at spread 1 at five. These are the streams of one order of the gaps, `seed=8`." in words
+    assert "at spread 1 at five. All this is for one order of the gaps, `seed=8`." in words
     assert (
         "With each of the next four orders, 9 to 12, spread 1 needs a fourth arm at 200 mm/s and "
         "a fifth at 300 mm/s." in words
