@@ -636,7 +636,9 @@ def test_recipe_for_the_other_bend_reaches_targets_behind_the_base():
 def test_arctan2_works_at_x_equal_to_0():
     words = flat("09", "atan-look")
     assert "`arctan2` looks at both signs, and $x = 0$ is no problem." in words
-    assert "which gives the correct quadrant and also works for $p_1 = 0$." in flat("000", "inverse")
+    assert "which gives the correct quadrant and also works for $p_1 = 0$." in flat(
+        "000", "inverse"
+    )
     made = quietly("09", "chain-explorer", "chain-code", "angles-code")
     assert math.atan2(2, 0) == math.pi / 2 and math.atan2(-2, 0) == -math.pi / 2
     assert gripper(made["posture"]((0.0, 2.0), 150 * deg)) == pytest.approx(2j)
