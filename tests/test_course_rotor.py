@@ -2,11 +2,14 @@
 named.
 """
 
+import json
 import math
+import re
 from dataclasses import replace
 
 import numpy as np
 import pytest
+from conftest import NOTEBOOKS
 from scipy.integrate import solve_ivp
 
 from robokin.course import book, check, variant
@@ -102,6 +105,19 @@ def test_four_times_the_inertia_needs_twice_the_friction_to_halve_the_frequency(
     assert MOTOR.start_frequency(load_inertia=3e-6) == 72 > top / 2
     more = replace(MOTOR, damping=2 * MOTOR.damping)
     assert more.start_frequency(load_inertia=3e-6) == top / 2 == 63
+
+
+def test_shortest_ramp_for_the_load_is_as_stated():
+    lab = json.loads((NOTEBOOKS / "13_rotor.ipynb").read_text(encoding="utf-8"))
+    (text,) = ["".join(cell["source"]) for cell in lab["cells"] if cell["id"] == "load-take"]
+    said = re.search(r"(\d+) ms\. But from (\d+) to (\d+) ms, steps are lost again", text)
+    least, again, until = map(int, said.groups())
+    kept = [
+        ms
+        for ms in range(100, 301, 10)
+        if made_steps(MOTOR, ramp(48, 40, 160, ms / 1000), 3e-6) == 48
+    ]
+    assert kept == [least, *range(until + 10, 301, 10)] and again == least + 10
 
 
 def test_second_integrator_also_loses_steps_in_multiples_of_four():

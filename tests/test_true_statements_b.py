@@ -644,7 +644,7 @@ def test_every_suggested_cycle_drifts():
 
 
 def test_elbow_formula_is_exact_at_every_point_but_one_and_jumps_there():
-    assert "right at every point of a line but one" in cells("12")["title"]
+    assert "right at every point of a path except one" in cells("12")["title"]
     made = run("12", "sides-setup")
     sp = pytest.importorskip("sympy")
     x, y, link = sp.symbols("x y l", positive=True)

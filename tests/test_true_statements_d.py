@@ -254,7 +254,8 @@ def test_three_windings_act_like_one_and_arctan_jumps():
 def test_lost_steps_with_and_without_a_ramp_are_as_stated():
     words = view("motor_synchronisation.p10")
     least, top, first, few, most, second = numbers(
-        r"rest (\d+) to (\d+) are lost from (\d+) .* ramp (\d+) to (\d+) from (\d+) on", words
+        r"Without a ramp (\d+) to (\d+) are lost from (\d+) .* ramp (\d+) to (\d+) from (\d+) on",
+        words,
     )
     motor, ones = Stepper(torque=0.02, inertia=1e-6, damping=6e-5, rise=0), np.ones(48)
     for start, (low, high, at) in ((None, (least, top, first)), (40, (few, most, second))):

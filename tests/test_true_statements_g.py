@@ -417,7 +417,7 @@ def arms_needed(v, spread, seed):
 def test_belt_table_shows_one_stream_and_other_streams_need_one_more_arm():
     words = flat("14", "belt-look")
     assert "at all six speeds. At spread 0.5 it is one arm too few at three of them, at" in words
-    assert "at spread 1 at five. These are the streams of one order of the gaps, `seed=8`." in words
+    assert "at spread 1 at five. All this is for one order of the gaps, `seed=8`." in words
     assert (
         "With each of the next four orders, 9 to 12, spread 1 needs a fourth arm at 200 mm/s and "
         "a fifth at 300 mm/s." in words
@@ -642,7 +642,9 @@ def test_recipe_for_the_other_bend_reaches_targets_behind_the_base():
 def test_arctan2_works_at_x_equal_to_0():
     words = flat("09", "atan-look")
     assert "`arctan2` looks at both signs, and $x = 0$ is no problem." in words
-    assert "which knows the quadrant and serves $p_1 = 0$, too." in flat("000", "inverse")
+    assert "which gives the correct quadrant and also works for $p_1 = 0$." in flat(
+        "000", "inverse"
+    )
     made = quietly("09", "chain-explorer", "chain-code", "angles-code")
     assert math.atan2(2, 0) == math.pi / 2 and math.atan2(-2, 0) == -math.pi / 2
     assert gripper(made["posture"]((0.0, 2.0), 150 * deg)) == pytest.approx(2j)

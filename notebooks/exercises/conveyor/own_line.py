@@ -90,8 +90,8 @@ def faults(line: Line, numbers: Any) -> list[Fault]:
     if (np.array(place) < LOW - 1e-9).any() or (np.array(place) > HIGH + 1e-9).any():
         name = "millimetres for metres" if max(map(abs, place)) > 2 else "the bin stands elsewhere"
         says = (
-            "The bin has to stand at x from 150 to 350 mm and y from −450 to 450 mm, and your "
-            "numbers are in metres. Nothing else was checked."
+            "The bin must stand at x from 150 to 350 mm and y from −450 to 450 mm. Give both "
+            "numbers in metres. Nothing else was checked."
         )
         return [(name, says)] * COUNT
     found = []
@@ -104,7 +104,7 @@ def faults(line: Line, numbers: Any) -> list[Fault]:
         too_few = 1 <= arms <= MOST_ARMS
         name = "the bound taken for enough" if arms == bound["the bound"] else "too few arms"
         many = "one arm" if arms == 1 else f"{arms} arms"
-        says = f"With {many} at this bin some objects of a stream are missed."
+        says = f"With {many} and this bin, some objects of a stream are missed."
         if not too_few:
             says = f"Wanted 1 to {MOST_ARMS} arms, got {arms}."
         found.append((name if too_few else "no number of arms for a line", says))
@@ -115,12 +115,12 @@ def faults(line: Line, numbers: Any) -> list[Fault]:
 
 
 WHY = {
-    "rounded down": "The bound is rounded down. With so few arms, more objects come than the arms "
+    "rounded down": "You rounded the bound down. With so few arms, more objects come than they "
     "have time for.",
-    "there without back": "c is the time there and back: twice the way.",
-    "the bin of the lab": "c belongs to the bin. Yours stands elsewhere, so it has another c.",
-    "the mean over the window": "The bound needs the least c over the window. The mean is no "
-    "bound: the arms may take most objects near the bin.",
+    "there without back": "c is the time there and back: twice the time of one way.",
+    "the bin of the lab": "You used c of the lab's bin. Your bin has another c.",
+    "the mean over the window": "You used the mean over the window. It is no bound: the arms "
+    "may take most objects near the bin. Use the least time.",
     "another bound": "The bound is c v / g, rounded up: c is 2 ways_from([x, y, 0.25]).min() for "
     "your bin, and g is the mean gap.",
 }

@@ -17,16 +17,16 @@ def p1_view() -> Any:
     facts = p1()
     return (
         f"{facts['c']:.2f} s for each object x {facts['rate']:.2f} objects a second = "
-        f"{facts['load']:.2f} arms, busy all the time.\nRounded up: {facts['up']} arms."
+        f"{facts['load']:.2f} s of work each second.\nRounded up: {facts['up']} arms."
     )
 
 
 def p2_view() -> Any:
     facts = p2()
     says = (
-        "Where one arm meets its objects, over the time. By back soonest it takes "
-        f"{facts['soon']}, most near the place where they come in; by first come "
-        f"{facts['first']}, most near the far end of the window."
+        "Where one arm meets its objects, plotted over time. By the rule back soonest it takes "
+        f"{facts['soon']}, most of them where they come in; by the rule first come "
+        f"{facts['first']}, most of them near the far end of the window."
     )
     fig = figure(says, height=3.4)
     ax = fig.subplots()
@@ -47,7 +47,7 @@ def p9_view() -> Any:
     even, uneven = facts["even"], facts["uneven"]
     says = (
         f"Objects missed of 200 over the belt speed. Evenly spaced: none up to {even} "
-        f"mm/s. Uneven: none up to {uneven} mm/s, then more and more."
+        f"mm/s. Unevenly spaced: none up to {uneven} mm/s, then more and more."
     )
     fig = figure(says, height=3.4)
     ax = fig.subplots()
@@ -59,6 +59,6 @@ def p9_view() -> Any:
     ax.axvline(facts["rule"], color=REMARK, ls=":", lw=1.3)
     ax.text(facts["rule"] - 1, 45, "c v / g = 1", color=REMARK, ha="right")
     ax.set(xlabel="belt speed, mm/s", ylabel="objects missed of 200", xlim=(58, 150), ylim=(-2, 58))
-    ax.set_title(f"One arm: even objects up to {even} mm/s, uneven up to {uneven}")
+    ax.set_title(f"None missed up to {even} mm/s evenly spaced, {uneven} unevenly")
     fig.tight_layout()
     return fig

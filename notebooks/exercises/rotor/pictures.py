@@ -40,8 +40,8 @@ def p8_view() -> Any:
 def p10_view() -> Any:
     rest, ramped = ({f: n for f, n in ways.items() if n} for ways in missed().values())
     says = (
-        f"Steps lost of 48 over the frequency. From rest {min(rest.values())} to 48 are lost from "
-        f"{min(rest)} pulses per second on, with a ramp {min(ramped.values())} to "
+        f"Steps lost of 48 over the frequency. Without a ramp {min(rest.values())} to 48 are lost "
+        f"from {min(rest)} pulses per second on, with a ramp {min(ramped.values())} to "
         f"{max(ramped.values())} from {min(ramped)} on, and always a multiple of 4."
     )
     fig = figure(says, 6.4, 3.2)

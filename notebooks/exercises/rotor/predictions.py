@@ -22,11 +22,11 @@ def p8() -> dict[str, Any]:
 @cache
 def missed() -> dict[str, dict[int, int]]:
     """How many of 48 steps the motor of the lab loses, for each frequency in pulses per second:
-    from rest, and with a ramp of 0.1 s that starts at 40.
+    without a ramp, and with a ramp of 0.1 s that starts at 40.
     """
     tempos = range(60, 281, 10)
     return {
-        "from rest": {f: MOTOR.run(ramp(PULSES, f, f, 0), ONES).lost for f in tempos},
+        "without a ramp": {f: MOTOR.run(ramp(PULSES, f, f, 0), ONES).lost for f in tempos},
         "with a ramp": {f: MOTOR.run(ramp(PULSES, 40, f, 0.1), ONES).lost for f in tempos},
     }
 
@@ -37,7 +37,7 @@ def p10() -> dict[str, Any]:
         "some": ", ".join(map(str, found)),
         "few": found[0],
         "tempo": 160,
-        "lost": missed()["from rest"][160],
+        "lost": missed()["without a ramp"][160],
         "runs": sum(map(len, missed().values())),
         "right": "only fours" if np.gcd.reduce(found) == 4 else "any number",
     }

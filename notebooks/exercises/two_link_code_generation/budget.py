@@ -212,14 +212,14 @@ dy = y3 − base_y.
   the base left out of dy: dy = y3
 {WAY}.
   base_x and base_y exchanged: dx = x3 - base_y; dy = y3 - base_x
-The foot is the base plus a times the direction: px = base_x + a dx, py = base_y + a dy.
+px = base_x + a dx and py = base_y + a dy: go from the base along the line to the tip.
   1/2 for a in the foot: px = base_x + dx / 2; py = base_y + dy / 2
   no a in the foot: px = base_x + dx; py = base_y + dy
   the foot counted from the tip: px = x3 + a*dx; py = y3 + a*dy
   the foot on the other side of the base: px = base_x - a*dx; py = base_y - a*dy
   dx and dy exchanged in the foot: px = base_x + a*dy; py = base_y + a*dx
   dx for dy in the foot: py = base_y + a*dx
-The direction across is (dy, −dx): xr = px + h dy, yr = py − h dx; on the left all signs change.
+The direction across is (dy, −dx): xr = px + h dy, yr = py − h dx; on the left the signs change.
   aside along the way: u = h*dx; v = h*dy
   aside without the way: u = h; v = h
   both signs alike: yr = py + v; yl = py - v
@@ -258,7 +258,7 @@ def slip(arm: Any, tips: Floats, found: Floats) -> tuple[str, str] | None:
     if not np.isfinite(found).any():
         return (
             "NaN",
-            "It returns NaN for every tip that we tried. Within reach, l1² / d2 is above a².",
+            "It returns NaN for every tip that we tried. In reach, l1² / d2 is greater than a².",
         )
     return explained(SLIPS, arm, tips, found, most=2, nan=True)
 

@@ -91,7 +91,7 @@ def p8_view() -> Any:
     lost = h2 < 0
     picture = figure(
         f"The square of h for {facts['count']} directions of the stretched arm: below 0 for "
-        f"{facts['lost']}, so that the root is NaN, above 0 for {facts['above']}, and exactly 0 "
+        f"{facts['lost']} (the root is NaN), above 0 for {facts['above']}, and exactly 0 "
         f"for {facts['zero']}.",
         height=3.2,
     )
