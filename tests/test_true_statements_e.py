@@ -551,7 +551,7 @@ def test_ranges_of_alpha_and_gamma_are_as_stated():
     said = written("three_levers")
     (KO, low) = numbers(r"At (\S+) m alpha goes from (\S+)° to 180°\. At 3 m it cannot move", said)
     assert np.arccos((5 - KO**2) / 4) / deg == pytest.approx(low, abs=0.05)
-    assert "Towards 1 m from the base it becomes right." in said
+    assert "Your answer becomes right as K approaches 1 m from the base." in said
     off = [abs(90 - (180 - np.arccos((KO - 1) / 2) / deg)) for KO in (1.5, 1.1, 1.01, 1.0001)]
     assert (np.diff(off) < 0).all() and off[-1] < 0.01
     (x,) = numbers(r"With K at \((\S+), 0\) m, gamma is above 180° for every alpha", said)
