@@ -641,13 +641,13 @@ def gripper_distance(path, H):
 def test_answers_to_the_questions_about_the_views_of_lab_10_are_true():
     H = np.array([1.2, 1.3])
     (far,) = numbers(
-        r"stays (\S+) mm away from the obstacle H\. Its levers do not", flat("10", "title")
+        r"nearer to the obstacle H than (\S+) mm, but its levers do\.", flat("10", "title")
     )
     assert "H, [(1, 1.3), (1, 1.2)])" in cells("10")["opening"]
     path = through((1, 1.3), (1, 1.2))
     assert gripper_distance(path, H) / mm == pytest.approx(far, abs=0.06)
     assert far * mm > DISTANCE > least_distance(path, H) + 0.1
-    pair, kept = said_pair("able", r"K2 = (.*?) m and K3 = (.*?) m, .* keep (\S+) mm")
+    pair, kept = said_pair("able", r"K2 = (.*?) m and K3 = (.*?) m, .* clearance.* is (\S+) mm")
     assert least_distance(through(*pair), H) / mm == pytest.approx(kept, abs=0.06)
     H = np.array([1.5, 1.0])
     text = r"AK comes as near as (\S+) mm before the gripper reaches K2, and (\S+) mm after K3"
@@ -657,7 +657,7 @@ def test_answers_to_the_questions_about_the_views_of_lab_10_are_true():
     assert [found[0], found[2]] == pytest.approx(near, abs=0.06) and max(near) * mm < DISTANCE
     on_AK = [lever_distance(q, H, slice(2, 3)) for q in rule]
     assert on_AK == pytest.approx([lever_distance(q, H) for q in rule])
-    pair, kept = said_pair("via-rule", r"K2 = (.*?) m and K3 = (.*?) m, .* keep (\S+) mm")
+    pair, kept = said_pair("via-rule", r"K2 = (.*?) m and K3 = (.*?) m, .* clearance is (\S+) mm")
     assert least_distance(through(*pair), H) / mm == pytest.approx(kept, abs=0.06)
     assert kept * mm > DISTANCE
 
@@ -692,8 +692,8 @@ def test_swept_place_and_the_minimum_between_samples_are_as_stated():
 def test_planning_method_changes_at_the_stated_places():
     text = flat("10", "cube-text")
     told = numbers(
-        r"Down to (\S+) m the direct way is clear\. From (\S+) to (\S+) m via points suffice\. "
-        r"From (\S+) to (\S+) m a search",
+        r"Down to (\S+) m the direct motion is clear\. From (\S+) to (\S+) m via points are "
+        r"enough\. From (\S+) to (\S+) m a search",
         text,
     )
     ways = {}
@@ -724,10 +724,11 @@ def test_sampled_tasks_and_the_larger_circle_keep_the_distance_as_stated():
 
 
 def test_plan_tries_more_circles_than_control():
-    assert "as `control` does, on more circles, beginning with the via" in flat("10", "deeper-two")
+    words = flat("10", "deeper-two")
+    assert "as `control` does, but with more circles, and it begins with the via" in words
     assert "for r in (distance, 0.16, 0.20, 0.25)" in cells("10")["control-code"]
     assert "r = 180 mm" in shown("10", "deeper-two-code")
-    assert "six places side by side." in flat("10", "deeper-moving")
+    assert "six places of the obstacle, side by side." in flat("10", "deeper-moving")
     assert "*Play* shows a coarse search." in flat("10", "cube")
 
 

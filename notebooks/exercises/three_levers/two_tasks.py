@@ -111,9 +111,7 @@ def faults(alphas: Any, given: Given) -> list[Fault]:
         return [("deg twice", f"Your alphas are {told}; an alpha of 120° is 120 * deg.")] * COUNT
     found = of_a_plan(alphas, given)
     if found and not of_a_plan(alphas[::-1], given):
-        says = (
-            "Swap your two alphas, and the plan works: the first belongs to the first target."
-        )
+        says = "Swap your two alphas, and the plan works: the first belongs to the first target."
         found.insert(0, ("the two alphas exchanged", says))
     return found
 
