@@ -175,7 +175,7 @@ def test_paths_keep_their_clearance_and_sampled_obstacles_are_on_lever_ak():
 
 
 def test_more_pulses_do_not_always_take_more_time(capsys):
-    assert "more time, if its motor then has the most" in flat("11", "pulses-look")
+    assert "more time if its motor then has the most" in flat("11", "pulses-look")
     q = station_postures(LOADER, np.array([[600, -350, 50], [50, 250, 350]]) * mm) / deg
     seconds = {}
     for gears in ((18, 72, 72), (36, 72, 72), (18, 144, 72), (18, 72, 144)):
@@ -188,8 +188,8 @@ def test_more_pulses_do_not_always_take_more_time(capsys):
 def test_straight_line_takes_longer_if_the_motor_at_the_limit_changes():
     words = flat("11", "deeper-straight-look")
     assert (
-        "longer than its d if the motor at the limit changes on the way, and as long as d if it "
-        "does not" in words
+        "longer than path d to the same goal if the motor at the limit changes on the way. If it "
+        "does not change, both take the same time" in words
     )
     rng, kinds = np.random.default_rng(5), set()
     for _ in range(60):

@@ -794,7 +794,7 @@ def test_long_turns_and_lost_steps_are_as_stated():
     assert 0 in lost and not any(each % 4 for each in lost)
     _, options, right = asked("motor_synchronisation.p10")
     assert re.search(r"the lost steps were 0, \d+", options[right].reason)
-    assert "A path with corners may be shorter than a wide arc" in written("motor_synchronisation")
+    assert "A path with corners can be shorter than a wide arc" in written("motor_synchronisation")
 
 
 def test_generated_c_has_only_doubles_and_both_texts_describe_the_rims_alike():

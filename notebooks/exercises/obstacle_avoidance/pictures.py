@@ -181,8 +181,9 @@ def p7_view() -> str:
     return (
         f"Of {facts['count']} tasks, with the circle of {facts['r']:.0f} mm: {facts['keep']} keep "
         f"{facts['wanted']:.0f} mm, {facts['near']} come nearer, {facts['out']} out of "
-        f"reach.\nWith the circle of {WANTED / mm:.0f} mm a lever sweeps the obstacle in 47 tasks: none "
-        f"of these keeps the distance now; in 53 no lever does: {facts['keep']} of these keep it now."
+        f"reach.\nWith the circle of {WANTED / mm:.0f} mm a lever sweeps the obstacle in 47 tasks: "
+        f"none of these keeps the distance now; in 53 no lever does: {facts['keep']} of these "
+        "keep it now."
     )
 
 
