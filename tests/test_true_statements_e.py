@@ -647,7 +647,7 @@ def test_answers_to_the_questions_about_the_views_of_lab_10_are_true():
     path = through((1, 1.3), (1, 1.2))
     assert gripper_distance(path, H) / mm == pytest.approx(far, abs=0.06)
     assert far * mm > DISTANCE > least_distance(path, H) + 0.1
-    pair, kept = said_pair("able", r"K2 = (.*?) m and K3 = (.*?) m, .* clearance.* is (\S+) mm")
+    pair, kept = said_pair("able", r"K2 = (.*?) m and K3 = (.*?) m, .*clearance.* is (\S+) mm")
     assert least_distance(through(*pair), H) / mm == pytest.approx(kept, abs=0.06)
     H = np.array([1.5, 1.0])
     text = r"AK comes as near as (\S+) mm before the gripper reaches K2, and (\S+) mm after K3"
