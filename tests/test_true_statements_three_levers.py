@@ -59,7 +59,7 @@ def test_minimum_of_s_is_where_section_4_says():
 
 def test_only_one_sum_of_the_angles_has_a_minimum_inside_the_range():
     words = flat("09", "least-exact")
-    assert "six of these eight sums only rise or only fall, (without proof)" in words
+    assert "six of these eight sums only rise or only fall (we do not prove this)" in words
     assert "only $\\alpha + \\beta - \\gamma$ has a minimum inside the range" in words
     seen, turning = set(), set()
     for KO in np.linspace(1.02, 2.98, 40):
