@@ -218,6 +218,14 @@ def test_straight_line_takes_longer_if_the_motor_at_the_limit_changes():
     assert kinds == {True, False}
 
 
+def test_last_move_of_the_program_turns_alpha_by_the_stated_angle():
+    onwards, back = numbers(
+        r"takes the (\S+)° onwards, and not the (\S+)° back", flat("11", "deeper-program-look")
+    )
+    turn = 2 * np.degrees(np.arctan2(20, 500))
+    assert [onwards, back] == pytest.approx([turn, 360 - turn], abs=0.05)
+
+
 def test_rule_that_considers_only_the_size_of_a_turn_fails_in_the_stated_range():
     text = flat("11", "turn-look")
     low, high = numbers(

@@ -41,6 +41,15 @@ def test_two_levers_are_in_line_at_both_ends_of_the_range():
     assert high == math.pi and family(K, low)[1] == pytest.approx(math.pi, abs=1e-6)
 
 
+def test_with_b_on_the_other_side_beta_would_be_negative():
+    assert "would be negative, because $KO > L$" in flat("09", "angles-formula")
+    for KO in np.linspace(1.001, 2.999, 60):
+        for alpha in np.linspace(math.acos((5 - KO**2) / 4), math.pi, 60):
+            KB = 2 * math.sin(alpha / 2)
+            beta_1 = math.acos(max(-1, min(1, (KB**2 + 1 - KO**2) / (2 * KB))))
+            assert (math.pi - alpha) / 2 - beta_1 < 0
+
+
 def test_minimum_of_s_is_where_section_4_says():
     words = flat("09", "least-sweep")
     far, behind = complex(2.8, 0.4), SECOND
