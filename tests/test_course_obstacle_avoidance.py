@@ -154,7 +154,7 @@ def test_mistakes_in_point_in_polygon_tests_are_named(wrong, named):
 @pytest.mark.parametrize("who", ["Ada", "Jonas"])
 def test_paths_known_from_the_lab_do_not_get_past_the_bar(who):
     task = variant("obstacle_avoidance", who)
-    start = np.array(task["start"]) * deg
+    start = np.array([task[name] for name in ("gamma", "beta", "alpha")])
     end = arm.least(task["target"], start)[0]
     paths = {
         "direct": [start, end],
@@ -179,7 +179,8 @@ def test_paths_known_from_the_lab_do_not_get_past_the_bar(who):
 def test_paths_around_closely_spaced_points_get_past_the_bar(who):
     """The statement in the hint about points at a distance h from each other is also true."""
     task = variant("obstacle_avoidance", who)
-    start, (first, last) = np.array(task["start"]) * deg, np.array(task["bar"])
+    start = np.array([task[name] for name in ("gamma", "beta", "alpha")])
+    first, last = np.array(task["bar"])
     for count in (10, 16):
         points = first + np.linspace(0, 1, count)[:, None] * (last - first)
         asked = np.hypot(task["distance"], np.hypot(*(points[1] - points[0])) / 2)
@@ -191,7 +192,7 @@ def test_paths_around_closely_spaced_points_get_past_the_bar(who):
 
 def test_path_of_strings_is_refused_and_different_numbers_print_differently():
     task = variant("obstacle_avoidance", "Ada")
-    start = np.array(task["start"]) * deg
+    start = np.array([task[name] for name in ("gamma", "beta", "alpha")])
     path = np.array([start, arm.least(task["target"], start)[0]])
     text = check("obstacle_avoidance.2", path.astype(str), who="Ada")
     assert text.mistake == "another kind or shape"

@@ -367,11 +367,11 @@ def test_distances_are_proven_with_the_stated_numbers_of_intervals():
     made = run("10", "whole-explorer", "whole-setup", "whole-code")
     proven, H = made["proven"], made["H_motion"]
     a, b = made["q0"], made["q1"]
-    many, yes, more, edge, truth, no, few = said(
+    many, yes, edge, more, truth, no, few = said(
         "10",
         "whole-look",
-        r"(\d+) prove (\d+) mm, and (\d+) prove (\d+) mm, since the truth, (\S+) mm.* \"no\" to "
-        r"(\d+) mm takes (\d+): half-way the arm is nearer",
+        r"(\d+) are enough to prove (\d+) mm, but (\d+) mm takes (\d+), because the true "
+        r"clearance, (\S+) mm.* \"no\" to (\d+) mm takes (\d+): half-way through, the arm is",
     )
     assert proven(a, b, H, yes * mm) == (True, many)
     assert proven(a, b, H, edge * mm) == (True, more)
@@ -389,9 +389,11 @@ def test_distances_are_proven_with_the_stated_numbers_of_intervals():
 def test_movement_depends_on_the_required_distance_as_stated():
     made = run("10", "setup", "control-code")
     control, H = made["control"], np.array([1.2, 1.3])
-    text = r"value S rises, from (\d+)° at (\d+) mm to (\d+)° at (\d+) mm, but for one fall, from "
+    text = r"S rises with this distance, from (\d+)° at (\d+) mm to (\d+)° at (\d+) mm, "
     low, near, high, far, falls, to, stays = said(
-        "10", "often-look", text + r"(\d+) to (\d+) mm.* At (\d+) mm the arm stays"
+        "10",
+        "often-look",
+        text + r"except for one fall, from (\d+) to (\d+) mm.* At (\d+) mm the arm stays",
     )
     asks = eval(re.search(r"asks = (np\.array\(.*?\))", cells("10")["control-player"])[1])
     S = {}
@@ -481,7 +483,7 @@ def test_search_finds_no_path_on_a_15_degree_grid_but_finds_one_on_a_5_degree_gr
 def test_the_documents_test_finds_as_few_obstacles_as_stated():
     question, options, right = asked("obstacle_avoidance.p1")
     for words in ("evenly from 0° to 180°", "from 1.1 to 2.9 m", "from 0° to 120°", "box round"):
-        assert words in question
+        assert words in options[right][1]
     path = pytest.importorskip("matplotlib.path").Path
 
     def found_in(tasks):
@@ -551,13 +553,17 @@ def test_seven_samples_miss_the_minimum():
     )
 
 
-def test_task_states_which_of_its_angles_are_in_radians():
+def test_task_prints_degrees_but_holds_radians():
     given = variant("obstacle_avoidance", "your name")
     path_form = content("obstacle_avoidance").module("past_a_bar")["form"]
-    assert said(
-        "10", "task-2", r"`my_task\[\"start\"\]` holds (\w+), and `my_task\[\"most\"\]` (\w+)"
-    ) == ["degrees", "radians"]
-    assert max(given["start"]) > 4 * np.pi > given["most"] and "held in radians" in repr(given)
+    assert said("10", "task-2", r"`my_task` prints (\w+), but it holds (\w+)\.") == [
+        "degrees",
+        "radians",
+    ]
+    for name in ("gamma", "beta", "alpha", "most"):
+        (printed,) = re.findall(rf"^{name} +(\S+) °", repr(given), re.M)
+        assert given[name] / deg == pytest.approx(float(printed), abs=1e-3)
+        assert float(printed) > 4 * np.pi > given[name]
     (most,) = said("10", "task-2", r"at most (\d+) postures")
     assert len(path_form(np.zeros((int(most), 3)), given)) == most
     with pytest.raises(ValueError, match=f"at most {most:.0f}"):

@@ -55,9 +55,9 @@ def test_correct_programs_compute_speeds_as_accurately_as_promised():
 
 def test_the_15_degree_grid_has_a_path_that_the_wavefront_search_does_not_find():
     _, options, right = asked("obstacle_avoidance.p8")
-    assert options[right].text.startswith("Only that this wave found no way")
+    assert options[right].text.startswith("Only that this wave found no path")
     assert options[1].reason.startswith("This wave found none in steps of 15°")
-    assert "no way found" in view("obstacle_avoidance.p8")
+    assert "no path found" in view("obstacle_avoidance.p8")
     H = np.array([0.5, 1.0])
     assert grid_wave(15, H) == (None, None)
     corners = "120 120 120, 180 120 120, 180 90 120, 180 90 90, 180 60 90, 150 60 90, 150 30 90, "
@@ -75,7 +75,7 @@ def test_the_15_degree_grid_has_a_path_that_the_wavefront_search_does_not_find()
 def test_adding_samples_never_increases_the_least_distance_found():
     _, options, right = asked("obstacle_avoidance.p4")
     says = options[right].reason
-    assert "If the old ones are kept, more of them never find a larger distance" in says
+    assert "If you add samples and keep the old ones, the least distance found never gets" in says
     path, H = direct(np.array([150, 120, 120]) * deg), np.array([1.7, 1.0])
 
     def found(count):
@@ -119,7 +119,7 @@ def test_gripper_distance_and_success_of_larger_circles_are_as_stated():
         mended += small >= 1e-6 and large >= DISTANCE
         lost += small < 1e-6 and large >= DISTANCE
     text = flat("10", "often-look")
-    assert numbers(r"mends (\d+) of the (\d+) that .* none of the (\d+) in", text) == [
+    assert numbers(r"saves (\d+) of the (\d+) that .* none of the (\d+) in", text) == [
         mended,
         100 - swept,
         swept,
@@ -148,8 +148,8 @@ def test_the_middle_of_a_five_pointed_star_is_outside():
 
 def test_two_distances_locate_two_points_or_one_in_line_with_the_sensors():
     text = flat("10", "deeper-locate")
-    assert "in two places, in one if it stands in line with both sensors" in text
-    assert "A third sensor, not in line with these, tells which" in text
+    assert "in two points, or in one if the obstacle is in line with both sensors" in text
+    assert "A third sensor, not in line with these two, tells which" in text
     made = run_cells("10", "setup", "cube-setup", "deeper-locate-code")
     for truth in ([1.5, 0], [2.5, 0], [1.5, 1.0]):
         far = np.hypot(*(np.array(truth) - made["sensors"]).T)
@@ -175,7 +175,7 @@ def test_paths_keep_their_clearance_and_sampled_obstacles_are_on_lever_ak():
 
 
 def test_more_pulses_do_not_always_take_more_time(capsys):
-    assert "more time, if its motor then has the most" in flat("11", "pulses-look")
+    assert "more time if its motor then has the most" in flat("11", "pulses-look")
     q = station_postures(LOADER, np.array([[600, -350, 50], [50, 250, 350]]) * mm) / deg
     seconds = {}
     for gears in ((18, 72, 72), (36, 72, 72), (18, 144, 72), (18, 72, 144)):
@@ -188,8 +188,8 @@ def test_more_pulses_do_not_always_take_more_time(capsys):
 def test_straight_line_takes_longer_if_the_motor_at_the_limit_changes():
     words = flat("11", "deeper-straight-look")
     assert (
-        "longer than its d if the motor at the limit changes on the way, and as long as d if it "
-        "does not" in words
+        "longer than path d to the same goal if the motor at the limit changes on the way. If it "
+        "does not change, both take the same time" in words
     )
     rng, kinds = np.random.default_rng(5), set()
     for _ in range(60):
@@ -216,6 +216,14 @@ def test_straight_line_takes_longer_if_the_motor_at_the_limit_changes():
         own = abs(steps).max(axis=1).sum() / LIMIT
         assert own > d * (1 + 1e-9) if changes else own == pytest.approx(d)
     assert kinds == {True, False}
+
+
+def test_last_move_of_the_program_turns_alpha_by_the_stated_angle():
+    onwards, back = numbers(
+        r"takes the (\S+)° onwards, and not the (\S+)° back", flat("11", "deeper-program-look")
+    )
+    turn = 2 * np.degrees(np.arctan2(20, 500))
+    assert [onwards, back] == pytest.approx([turn, 360 - turn], abs=0.05)
 
 
 def test_rule_that_considers_only_the_size_of_a_turn_fails_in_the_stated_range():

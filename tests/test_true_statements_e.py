@@ -574,7 +574,7 @@ def test_ranges_of_alpha_and_gamma_are_as_stated():
     said = written("three_levers")
     (KO, low) = numbers(r"At (\S+) m alpha goes from (\S+)° to 180°\. At 3 m it cannot move", said)
     assert np.arccos((5 - KO**2) / 4) / deg == pytest.approx(low, abs=0.05)
-    assert "Towards 1 m from the base it becomes right." in said
+    assert "Your answer becomes right as K approaches 1 m from the base." in said
     off = [abs(90 - (180 - np.arccos((KO - 1) / 2) / deg)) for KO in (1.5, 1.1, 1.01, 1.0001)]
     assert (np.diff(off) < 0).all() and off[-1] < 0.01
     (x,) = numbers(r"With K at \((\S+), 0\) m, gamma is above 180° for every alpha", said)
@@ -664,13 +664,13 @@ def gripper_distance(path, H):
 def test_answers_to_the_questions_about_the_views_of_lab_10_are_true():
     H = np.array([1.2, 1.3])
     (far,) = numbers(
-        r"stays (\S+) mm away from the obstacle H\. Its levers do not", flat("10", "title")
+        r"nearer to the obstacle H than (\S+) mm, but its levers do\.", flat("10", "title")
     )
     assert "H, [(1, 1.3), (1, 1.2)])" in cells("10")["opening"]
     path = through((1, 1.3), (1, 1.2))
     assert gripper_distance(path, H) / mm == pytest.approx(far, abs=0.06)
     assert far * mm > DISTANCE > least_distance(path, H) + 0.1
-    pair, kept = said_pair("able", r"K2 = (.*?) m and K3 = (.*?) m, .* keep (\S+) mm")
+    pair, kept = said_pair("able", r"K2 = (.*?) m and K3 = (.*?) m, .*clearance.* is (\S+) mm")
     assert least_distance(through(*pair), H) / mm == pytest.approx(kept, abs=0.06)
     H = np.array([1.5, 1.0])
     text = r"AK comes as near as (\S+) mm before the gripper reaches K2, and (\S+) mm after K3"
@@ -680,7 +680,7 @@ def test_answers_to_the_questions_about_the_views_of_lab_10_are_true():
     assert [found[0], found[2]] == pytest.approx(near, abs=0.06) and max(near) * mm < DISTANCE
     on_AK = [lever_distance(q, H, slice(2, 3)) for q in rule]
     assert on_AK == pytest.approx([lever_distance(q, H) for q in rule])
-    pair, kept = said_pair("via-rule", r"K2 = (.*?) m and K3 = (.*?) m, .* keep (\S+) mm")
+    pair, kept = said_pair("via-rule", r"K2 = (.*?) m and K3 = (.*?) m, .* clearance is (\S+) mm")
     assert least_distance(through(*pair), H) / mm == pytest.approx(kept, abs=0.06)
     assert kept * mm > DISTANCE
 
@@ -715,8 +715,8 @@ def test_swept_place_and_the_minimum_between_samples_are_as_stated():
 def test_planning_method_changes_at_the_stated_places():
     text = flat("10", "cube-text")
     told = numbers(
-        r"Down to (\S+) m the direct way is clear\. From (\S+) to (\S+) m via points suffice\. "
-        r"From (\S+) to (\S+) m a search",
+        r"Down to (\S+) m the direct motion is clear\. From (\S+) to (\S+) m via points are "
+        r"enough\. From (\S+) to (\S+) m a search",
         text,
     )
     ways = {}
@@ -747,10 +747,11 @@ def test_sampled_tasks_and_the_larger_circle_keep_the_distance_as_stated():
 
 
 def test_plan_tries_more_circles_than_control():
-    assert "as `control` does, on more circles, beginning with the via" in flat("10", "deeper-two")
+    words = flat("10", "deeper-two")
+    assert "as `control` does, but with more circles, and it begins with the via" in words
     assert "for r in (distance, 0.16, 0.20, 0.25)" in cells("10")["control-code"]
     assert "r = 180 mm" in shown("10", "deeper-two-code")
-    assert "six places side by side." in flat("10", "deeper-moving")
+    assert "six places of the obstacle, side by side." in flat("10", "deeper-moving")
     assert "*Play* shows a coarse search." in flat("10", "cube")
 
 
@@ -816,7 +817,7 @@ def test_long_turns_and_lost_steps_are_as_stated():
     assert 0 in lost and not any(each % 4 for each in lost)
     _, options, right = asked("motor_synchronisation.p10")
     assert re.search(r"the lost steps were 0, \d+", options[right].reason)
-    assert "A path with corners may be shorter than a wide arc" in written("motor_synchronisation")
+    assert "A path with corners can be shorter than a wide arc" in written("motor_synchronisation")
 
 
 def test_generated_c_has_only_doubles_and_both_texts_describe_the_rims_alike():

@@ -554,14 +554,13 @@ def test_random_choice_turns_joints_less_as_often_as_stated_but_never_from_the_s
     found = option("three_levers.p10", "hardly more")
     reason = one_line(found.reason)
     assert (
-        "Chance evens out if it errs to both sides alike. From the posture in which the second arm "
-        "is, a random posture never turns less than the least movement, and nearly always more"
-        in reason
+        "From any posture of the second arm, a random choice costs at least the least movement, "
+        "and nearly always more." in reason
     )
-    told = r"In (\d+) of these (\d+) tasks the second arm happens to .* and turns less, but"
+    told = r"In (\d+) of these (\d+) tasks the second arm turns less than the first, because"
     fewer, tasks = numbers(told, reason)
     assert "one day of ten, on average, and lose time on the other nine" in one_line(found.second)
-    law = "In one task, begun in the same posture, no rule can turn less than least movement"
+    law = "from the same posture, no rule can turn the joints less than least movement"
     assert law in flat("09", "race-look")
     drawn = np.random.default_rng(4).uniform(0, np.pi, (300, 3))
     places = [gripper(q) for q in drawn]
@@ -614,7 +613,7 @@ def test_recipe_for_the_other_bend_reaches_targets_behind_the_base():
     words = flat("09", "deeper-more")
     assert (
         "Mirror K in the x axis, solve with `posture` of section 2, mirror back, and check the "
-        r"limit of $\gamma$ only then. Which targets behind the base does this arm serve?" in words
+        r"limit of $\gamma$ only then. Which targets behind the base does this arm reach?" in words
     )
     assert "in every direction behind the base: at 1.2, 2.0 and 2.8 m we find postures" in words
     made = quietly("09", "chain-explorer", "chain-code", "angles-code")
@@ -655,7 +654,7 @@ def test_arctan2_works_at_x_equal_to_0():
 def test_clipped_arm_stretches_or_folds_and_does_not_reach_k():
     words = says("three_levers", "clipped where there is no triangle")
     assert words.endswith(
-        "With clipped cosines the arm stretches or folds, does not reach K, and nobody is told."
+        "With clipped cosines the arm stretches or folds, does not reach K, and no one is told."
     )
     condition, space = "abs(a - KB) <= KO <= a + KB", {}
     assert LEVERS.solution.count(condition) == 1
@@ -684,7 +683,7 @@ def test_clipped_arm_stretches_or_folds_and_does_not_reach_k():
 
 
 def test_plans_for_80_mm_wide_levers_exist_but_one_needs_a_larger_circle():
-    claim = "levers 80 mm wide lose no plan, but past (1.6, 1.3) m they need a larger circle"
+    claim = "wherever thin levers (width 0) have one, but past (1.6, 1.3) m they need a larger"
     assert any(claim in text for text in cells("10").values())
     answers = []
     for width in (0, 0.08):

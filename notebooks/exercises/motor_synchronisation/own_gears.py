@@ -133,7 +133,7 @@ def not_together(q: Floats, gears: Floats, omega: Floats, pulses: Floats) -> Fau
         "number of pulses divided by the frequency.",
         "one frequency for all": "You use the same frequency for all motors. Then the motor with "
         "the most pulses stops last.",
-        "the gears left out": "Your frequencies are in proportion to the turns of the joints, not "
+        "the gears left out": "Your frequencies are proportional to the turns of the joints, not "
         "to the pulses: you left out the gears.",
         "divided by the gear": "You divided by the gear. With a gear of i : 1 the motor needs i "
         "times as many pulses.",

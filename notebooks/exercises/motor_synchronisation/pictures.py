@@ -83,7 +83,7 @@ def p6_view() -> Any:
     facts = p6()
     return (
         f"The controller counts {facts['counted']} pulses. The motor is at "
-        f"{facts['stands']}: {facts['off']} pulses short, as before the second move."
+        f"{facts['stands']}: {facts['off']} pulses below that, as before the second move."
     )
 
 

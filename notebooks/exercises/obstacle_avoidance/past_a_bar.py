@@ -19,11 +19,11 @@ COUNT = 6
 KEPT = 0.1  # m: the distance that the exercise asks for
 BETWEEN = 0.02  # m: between the measured points of the bar; the distance is then exact to 0.5 mm
 UNITS = {
-    "start": ("° (gamma, beta, alpha)", 1.0),
+    **dict.fromkeys(("gamma", "beta", "alpha"), ("°, where the arm stands", deg)),
     "target": ("m", 1.0),
     "bar": ("m, its two ends", 1.0),
     "distance": ("mm", mm),
-    "most": ("° of movement S at most, held in radians", deg),
+    "most": ("° of movement S at most", deg),
 }
 
 
@@ -59,7 +59,7 @@ def task(who: str) -> dict[str, Any]:
         if least is None or ends_are_enough(start * deg, target, bar):
             continue
         return {
-            "start": tuple(start.tolist()),
+            **dict(zip(("gamma", "beta", "alpha"), (start * deg).tolist(), strict=True)),
             "target": tuple(target.tolist()),
             "bar": tuple(tuple(end.tolist()) for end in bar),
             "distance": KEPT,
@@ -137,16 +137,19 @@ def faults(path: Floats, given: Mapping[str, Any]) -> list[tuple[str, str]]:
     """What is wrong with the start, the end at the target, the limits, the distance from the ends
     of the bar and from the part between them, and the amount of movement.
     """
-    start = np.array(given["start"]) * deg
+    start = np.array([given[name] for name in ("gamma", "beta", "alpha")])
     if abs(path).max() > 4 * np.pi:
         return [("degrees for radians", DEGREES)] * COUNT
     if abs(path).max() <= 2 * np.pi * deg:
         return [
-            ("deg twice", "All angles are 6° and less; an angle of 120° is 120 * deg, once.")
+            (
+                "deg twice",
+                "All your angles are at most 6°. Multiply by deg only once: 120° is 120 * deg.",
+            )
         ] * COUNT
     found: list[tuple[str, str]] = []
     if abs(path[0] - start).max() > 1e-4:
-        stands, got = apart(given["start"], path[0] / deg)
+        stands, got = apart(start / deg, path[0] / deg)
         says = f"The path begins at ({got})°, but the arm stands at ({stands})°."
         if abs(path[-1] - start).max() <= 1e-4:
             says += " There the path ends."
@@ -194,11 +197,11 @@ def too_near(path: Floats, places: Floats, name: str, distance: float) -> list[t
         f"near as {near} mm to {name}; the task asks for {wanted} mm."
     )
     if corners >= distance:
-        says += f" Every posture of the path keeps {corners / mm:.0f} mm: look at the way between."
+        says += f" Every posture of the path stays {corners / mm:.0f} mm away: look between them."
         if gripper >= distance:
-            says += " The gripper keeps it on the way, a lever does not."
+            says += " The gripper keeps this distance on the way, but a lever does not."
         return [(f"{name}: too near between two postures", says)]
     if gripper >= distance:
-        says += " The gripper keeps it, a lever does not."
+        says += " The gripper keeps this distance, but a lever does not."
         return [(f"{name}: the gripper passes, a lever does not", says)]
     return [(f"too near to {name}", says)]

@@ -143,8 +143,8 @@ def p4_view() -> Any:
 def p5_view() -> Any:
     fig = figure(
         "Sixty moments of the path through two via points. The gripper comes as near to the "
-        f"obstacle as {p5()['gripper']:.0f} mm, inside the circle; the lever AK passes "
-        "over it.",
+        f"obstacle as {p5()['gripper']:.0f} mm, inside the circle; lever AK sweeps "
+        "across it.",
         height=4,
     )
     ax = fig.subplots()
@@ -158,7 +158,7 @@ def p5_view() -> Any:
     angle = np.linspace(0, 2 * np.pi, 100)
     ax.plot(PASSED[0] + WANTED * np.cos(angle), PASSED[1] + WANTED * np.sin(angle), color=REMARK)
     ax.plot(*PASSED, "X", color=INK, ms=9, zorder=6)
-    plane(ax, (-1.2, -0.1), (2.9, 2.2), "The gripper goes round, lever AK goes over")
+    plane(ax, (-1.2, -0.1), (2.9, 2.2), "The gripper goes round H, but lever AK sweeps across it")
     ax.legend(loc="upper right", fontsize=8)
     fig.tight_layout()
     return fig
@@ -172,7 +172,7 @@ def p6_view() -> str:
     )
     return (
         f"The wave arrives after {facts['count']} steps of 10°. Followed back, they turn {turns} "
-        f"(to and fro both counted): together {facts['sum']:.0f}°."
+        f"(turns in both directions counted): together {facts['sum']:.0f}°."
     )
 
 
@@ -181,14 +181,15 @@ def p7_view() -> str:
     return (
         f"Of {facts['count']} tasks, with the circle of {facts['r']:.0f} mm: {facts['keep']} keep "
         f"{facts['wanted']:.0f} mm, {facts['near']} come nearer, {facts['out']} out of "
-        f"reach.\nWith {WANTED / mm:.0f} mm a lever sweeps the obstacle in 47 tasks: none of "
-        f"these keeps it now; in 53 no lever does: {facts['keep']} of these keep it now."
+        f"reach.\nWith the circle of {WANTED / mm:.0f} mm a lever sweeps the obstacle in 47 tasks: "
+        f"none of these keeps the distance now; in 53 no lever does: {facts['keep']} of these "
+        "keep it now."
     )
 
 
 def p8_view() -> str:
     facts = p8()
     return (
-        f"The wave in steps of {facts['coarse']}°: no way found. Steps of 5°: a way with S = "
+        f"The wave in steps of {facts['coarse']}°: no path found. Steps of 5°: a path with S = "
         f"{facts['S']:.0f}°, proven on its whole length."
     )

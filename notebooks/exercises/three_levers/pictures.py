@@ -49,7 +49,7 @@ def p2_view() -> Any:
         told = f"{of.width(at):.1f}°"
         ax.annotate(told, (at, 150), (-6, 0), textcoords="offset points", ha="right")
     ax.set(xlabel="distance KO, m", ylabel="free angle α, °", xlim=(1, 3), ylim=(0, 182))
-    ax.set_title("The farther K is, the smaller is the family")
+    ax.set_title("The farther away K is, the smaller its family")
     return fig
 
 
@@ -111,7 +111,7 @@ def p5_view() -> Any:
     ax.text(128, 160, "γ above 180°", bbox=box)
     ax.axvline(of.BEHIND, color=INK, lw=1)
     ax.set(xlabel="direction of K seen from O, °", ylabel="α, °", xlim=(0, 180), ylim=(60, 182))
-    ax.set_title(f"{of.BEHIND_KO:g} m from the base: behind the arm the family dies out")
+    ax.set_title(f"{of.BEHIND_KO:g} m from the base: behind the arm the family disappears")
     return fig
 
 
@@ -177,7 +177,7 @@ def p8_view() -> Any:
     )
     both = {
         "S, the sum": change.sum(axis=-1),
-        "the longest motor: the time": change.max(axis=-1),
+        "the largest turn: the time": change.max(axis=-1),
     }
     curves(
         ax,

@@ -18,8 +18,8 @@ from .shared import ARM
 UNITS = {
     **dict.fromkeys(("gamma", "beta", "alpha"), ("°, where the arm stands", deg)),
     **dict.fromkeys(("x_first", "y_first", "x_second", "y_second"), ("m", 1.0)),
-    "most": ("° of movement in all", deg),
-    "longest": ("° of the longest motors, both tasks", deg),
+    "most": ("° of movement in total", deg),
+    "longest": ("° of the largest turns, both tasks", deg),
 }
 NAMES, COUNT, EASE = ("first", "second"), 4, 1e-6
 Fault = tuple[str, str]
@@ -95,7 +95,7 @@ def form(answer: Any, given: Given) -> Any:
     except (TypeError, ValueError):
         alphas = np.empty(0)
     if alphas.shape != (2,):
-        says = "; alpha alone says which posture it is" if alphas.size == 6 else ""
+        says = "; alpha alone determines the posture" if alphas.size == 6 else ""
         raise ValueError(f"{wanted}{says}.")
     if not np.isfinite(alphas).all():
         raise ValueError(f"{wanted}: a number is missing.")
@@ -111,9 +111,7 @@ def faults(alphas: Any, given: Given) -> list[Fault]:
         return [("deg twice", f"Your alphas are {told}; an alpha of 120° is 120 * deg.")] * COUNT
     found = of_a_plan(alphas, given)
     if found and not of_a_plan(alphas[::-1], given):
-        says = (
-            "Exchange your two alphas, and the plan holds: the first belongs to the first target."
-        )
+        says = "Swap your two alphas, and the plan works: the first belongs to the first target."
         found.insert(0, ("the two alphas exchanged", says))
     return found
 
@@ -128,12 +126,12 @@ def of_a_plan(alphas: Any, given: Given) -> list[Fault]:
             if np.isnan(q).any()
         ]
         if np.isfinite(ARM.family(targets, alphas[::-1])).all():
-            gone.append("Exchange your two alphas, and both postures exist.")
+            gone.append("Swap your two alphas, and both postures exist.")
         return [("alpha outside its range", " ".join(gone))] * COUNT
     for name, q in zip(NAMES, postures, strict=True):
         if not within(ARM, q).all():
             says = (
-                f"At the {name} target gamma would be {q[0] / deg:.2f}°; it may go from 0° to "
+                f"At the {name} target gamma would be {q[0] / deg:.2f}°; it can go from 0° to "
                 "180°. gamma grows with alpha, so choose a smaller alpha."
             )
             found.append((f"gamma past its limit at the {name} target", says))
@@ -155,7 +153,7 @@ def beyond(one: Any, two: Any, postures: Any, given: Given) -> list[Fault]:
         turned, allowed = apart(S / deg, given["most"] / deg)
         says = (
             f"Together the joints turn by {one.sum() / deg:.1f}° and {two.sum() / deg:.1f}°, "
-            f"{turned}° in all; {allowed}° are allowed."
+            f"{turned}° in total; {allowed}° are allowed."
         )
         again = abs(postures[1] - start(given)).sum()
         if one.sum() + again <= given["most"] + EASE:
@@ -165,19 +163,19 @@ def beyond(one: Any, two: Any, postures: Any, given: Given) -> list[Fault]:
             )
         greed = abs(postures - greedy(given))[:, 2].max() < 0.2 * deg
         if greed:
-            says += " Each task by itself has the least movement: look ahead."
+            says += " Each task by itself has the least movement. Look ahead to the second task."
         found.append(("greed" if greed else "too much movement", says))
     if (longest := one.max() + two.max()) > given["longest"] + EASE:
         turned, allowed = apart(longest / deg, given["longest"] / deg)
         says = (
-            f"The longest motors turn by {one.max() / deg:.1f}° and {two.max() / deg:.1f}°, "
-            f"{turned}° in all; {allowed}° are allowed."
+            f"The largest turns of a motor are {one.max() / deg:.1f}° and {two.max() / deg:.1f}°, "
+            f"{turned}° in total; {allowed}° are allowed."
         )
         busiest = (one + two).max()
         if busiest <= given["longest"] + EASE:
             says += (
                 f" No motor turns by more than {busiest / deg:.1f}° in both tasks together, but "
-                "each task takes as long as its own longest turn."
+                "each task takes as long as its own largest turn."
             )
         found.append(("too slow", says))
     return found
