@@ -241,7 +241,7 @@ def test_too_few_turns_are_reported(most, name):
 
 def test_message_about_a_case_states_degrees_and_the_side_of_the_elbow():
     case = check("scara_motion.1", _zero_is_negative).case
-    assert "joint 2 stands at 0.0° in q0, which counts as positive" in case
+    assert "joint 2 is at 0.0° in q0, which counts as positive" in case
     case = check("scara_motion.1", _degrees_without_limits).case
     assert "which is right in degrees" in case and "5156" not in case
     assert "the elbow has changed its side" in check("scara_motion.1", _nearest_row).case

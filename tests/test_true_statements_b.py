@@ -308,7 +308,7 @@ def test_random_choice_turns_the_joints_more_by_the_stated_factor():
     times = turned["dice"] / turned["least"]
     assert options[right].text == f"About {times:.1f} times as much."
     text = " ".join([question, options[right].reason])
-    told = re.search(r"takes (\d+)° a task.* adds (\d+)°.* takes (\d+) % more", text)
+    told = re.search(r"takes (\d+)° for each task.* adds (\d+)°.* takes (\d+) % more", text)
     wide = np.diff(ARM.alpha_range(places), axis=0).mean() / deg
     assert f"the range of alpha is {wide:.0f}° wide on average" in question
     own = [turned["least"], turned["dice"] - turned["least"]]
@@ -734,7 +734,7 @@ def test_sections_named_in_the_companion_cover_the_signed_angle():
 
 def test_the_race_includes_the_five_methods_of_part_one():
     (line,) = [x for x in cells("003")["lost"].splitlines() if x.startswith("| I |")]
-    many, first, second = re.search(r"09: (\w+) methods of (\S+) and (\S+) race", line).groups()
+    many, first, second = re.search(r"compares (\w+) methods of (\S+) and (\S+) ", line).groups()
     makers = [
         redundancy.pseudo_inverse,
         redundancy.gradient_projection,
