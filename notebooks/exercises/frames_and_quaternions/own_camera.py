@@ -221,6 +221,6 @@ def turns(look: Floats) -> tuple[tuple[str, Floats, str], ...]:
         (
             "looks level",
             unit(look * [1, 1, 0]),
-            "It points to the right side, but it is level: you left out the height.",
+            "Its horizontal direction is right, but it is level: you left out the height.",
         ),
     )
