@@ -157,7 +157,7 @@ def speeds(q: Floats, duration: float, given: Mapping[str, Any]) -> list[Fault]:
     if most * SLACK * EASE < share:
         says = (
             f"{busiest}. The duration may be {SLACK} times the shortest one, and speeds are "
-            "proportional to 1 / duration: take less time."
+            "proportional to 1 / duration: choose a shorter duration."
         )
         return [("slower than asked", says)]
     return []

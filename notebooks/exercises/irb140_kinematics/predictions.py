@@ -149,7 +149,7 @@ def task_1() -> tuple[Floats, Floats, Transform]:
 
 
 def p7() -> dict[str, Any]:
-    """The share of task 1 that is within all limits, and the joints that exceed them."""
+    """The fraction of task 1 that is within all limits, and the joints that exceed them."""
     t, q, _ = task_1()
     inside = within(IRB140, q)
     past: Any = ~inside.all(axis=-1)
