@@ -64,7 +64,7 @@ def same(a: float, b: float) -> bool:
 
 @cache
 def nearest_share(corner: str) -> float:
-    """The smallest distance of the path from via, as a share of blend times |D|."""
+    """The smallest distance of the path from via, as a fraction of blend times |D|."""
     place = blend(START, VIA, GOAL, 0.5, np.linspace(0, 1, 8001), corner=corner).translation
     return float(np.linalg.norm(place - P1, axis=-1).min()) / (0.5 * D)
 

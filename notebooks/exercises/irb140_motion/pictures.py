@@ -101,8 +101,8 @@ def p5_view() -> str:
             f"{a:.1f} rad/s²; differentiate(q, t, 2) {twice:.1f} rad/s²"
         )
     lines.append(
-        "The change of the speed stays the same, the quotients do not: it belongs to the robot's "
-        "motion, they belong to the method. (differentiate spreads the change over two steps, so "
+        "The change of the speed stays the same: it belongs to the robot's motion. The quotients "
+        "do not: they belong to the method. (differentiate spreads the change over two steps, so "
         "its quotient is about half as large.)"
     )
     return "\n".join(lines)
