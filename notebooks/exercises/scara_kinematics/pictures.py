@@ -23,7 +23,7 @@ def p1_view() -> str:
 
 def p2_view() -> str:
     start, goal = TURN
-    lines = ["The tool's angle at the progress s, from 0 to 1:"]
+    lines = ["The tool's angle at progress s, from 0 to 1:"]
     for s in (0.25, 0.5, 0.75, 1.0):
         q = start.as_transform().rotation.slerp(goal.as_transform().rotation, s)
         angle, _ = q.as_angle_axis()

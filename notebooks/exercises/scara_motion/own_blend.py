@@ -60,7 +60,7 @@ def gap(mine: Given, fraction: float) -> float:
 def form(answer: Any, mine: Given) -> dict[str, float]:
     found = numbers_of(answer, ("blend", "duration"))
     if found["blend"] > 1:
-        raise ValueError(f"blend: wanted a share from 0 to 0.5, got {found['blend']:g}.")
+        raise ValueError(f"blend: wanted a fraction from 0 to 0.5, got {found['blend']:g}.")
     return found
 
 
@@ -75,14 +75,14 @@ def faults(answer: Given, mine: Given) -> list[tuple[str, str]]:
     if deepest > STROKE + 1e-9:  # joints 1 to 3 stay inside for every blend, see `given`
         says = (
             f"The stroke goes {apart((deepest - STROKE) / mm, 0, 2)[0]} mm past its limit of "
-            f"{STROKE / mm:.0f} mm. More blend lifts the tool."
+            f"{STROKE / mm:.0f} mm. A larger blend lifts the tool."
         )
         found.append(("past the stroke's limit", says))
     passes = gap(mine, b)
     if passes > mine["miss"] * (1 + 1e-6):
         near, allowed = apart(passes / mm, mine["miss"] / mm)
         says = f"The tool passes {near} mm from via, and at most {allowed} mm is allowed. "
-        found.append(("too far from via", says + "Less blend brings it closer."))
+        found.append(("too far from via", says + "A smaller blend brings it closer."))
     a = sum(over_via(mine)) / (b * duration**2)  # in the parabola's corner, where it is constant
     shortest = float(np.sqrt(sum(over_via(mine)) / b / most))
     needs, allowed = apart(a / mm, most / mm, 2)
@@ -93,7 +93,7 @@ def faults(answer: Given, mine: Given) -> list[tuple[str, str]]:
     fast, slow = a > most * 1.002, duration > 1.02 * shortest
     if fast or slow:
         name, says = slip(duration / shortest, shortest) or (
-            ("too fast", "More time, or more blend, helps.")
+            ("too fast", "A longer duration or a larger blend helps.")
             if fast
             else ("slower than needed", "A shorter duration is enough.")
         )

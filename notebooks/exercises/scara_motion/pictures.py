@@ -79,7 +79,7 @@ def p4_view() -> Any:
         for k in (0, 1)
     ]
     fig = figure(
-        f"Joints 1 and 2 over the progress. On LIN {past[0]}, and {past[1]}, each at its worst. On "
+        f"Joints 1 and 2 over the progress. In LIN {past[0]}, and {past[1]}, each at its worst. In "
         "PTP both run straight between their ends, inside their limits.",
         WIDE,
         5.2,
@@ -112,7 +112,7 @@ def p5_view() -> Any:
     place.plot(t, [0, down, down - up], "-.", color=PINK, lw=2)
     speed.plot(t[:2], [before] * 2, "-.", t[1:], [after] * 2, "-.", color=PINK, lw=2)
     place.set(
-        xlabel="time t, s", ylabel="q4 since the start, mm", title="A lower tool is more stroke"
+        xlabel="time t, s", ylabel="q4 since the start, mm", title="A lower tool needs more stroke"
     )
     jump = f"A jump of {Shown(after - before):g} mm/s"
     speed.set(xlabel="time t, s", ylabel="speed of q4, mm/s", title=jump)
@@ -207,7 +207,7 @@ def p8_view() -> Any:
         ax.annotate(name, (at, tall / 2), (side, 0), textcoords="offset points", fontsize=11)
     ax.axhline(0, color=SOFT, lw=0.8, zorder=0)
     ax.set_title("Every corner is the same one, enlarged from the via point")
-    ax.set(xlabel="share of the line before (−) and after (+) via", ylabel="height above via, mm")
+    ax.set(xlabel="fraction of the line before (−), after (+) via", ylabel="height above via, mm")
     ax.set_xticks([-1, -0.5, 0, 0.5, 1])
     ax.legend()
     fig.tight_layout()
@@ -218,7 +218,7 @@ def p9_view() -> Any:
     facts = p9()
     fig = figure(
         "Stroke over time at the same blend: the parabola touches the limit of 180 mm, the quintic "
-        "is past it; with more blend the quintic touches it, too.",
+        "is past it; with a larger blend the quintic touches it, too.",
         WIDE,
         3.8,
     )
