@@ -24,7 +24,7 @@ def p4_view() -> Any:
     ax.bar(range(9), shares, color=FIRST)
     for k, value in enumerate(shares):
         ax.text(k, value + 0.7, f"{value:.1f}", ha="center", fontsize=9)
-    ax.set(xlabel="rows inside the limits", ylabel="share of the poses, %", xticks=range(9))
+    ax.set(xlabel="rows inside the limits", ylabel="fraction of the poses, %", xticks=range(9))
     title = f"{shares[0]:.0f} % of the poses in reach have no usable row"
     ax.set(ylim=(0, 1.2 * shares.max()), title=title)
     fig.tight_layout()
@@ -110,7 +110,7 @@ def p7_view() -> str:
         "around the reach of the stretched arm, and the orientation over all rotations.",
         f"On {of.p7()['lines']} of them all eight rows exist and at least one stays inside the "
         "limits to the end.",
-        "A rule for the first pose fails on this share of them (the program is under More):",
+        "A rule for the first pose fails on this fraction of them (the program is under More):",
     ]
     lines += [f"{name}: {of.p7()[f'rule{k}']:.0f} %" for k, name in enumerate(of.RULES)]
     return "\n".join(lines)

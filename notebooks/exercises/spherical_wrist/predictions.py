@@ -119,7 +119,7 @@ def chain(q: Floats) -> Floats:
 @cache
 def noise() -> tuple[Floats, Floats, Floats]:
     """Angles theta; for each of three solvers the worst error of a matrix entry (angles, 3), among
-    those of 200 postures for which it gives a number; and the shares for which it gives none.
+    those of 200 postures for which it gives a number; and the fractions for which it gives none.
     """
     q = np.random.default_rng(1).uniform(-180, 180, (200, 6)) * deg  # as in the lab
     thetas = 10.0 ** np.arange(0, -17, -1)

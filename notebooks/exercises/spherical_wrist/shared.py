@@ -66,8 +66,8 @@ def mended(h: Floats, wrist: int) -> Floats:
 
 
 def tilted_line(slope: float, miss: float, up: float, side: float, s: Any) -> Transform:
-    """Poses on a straight line that rises by `slope` and passes the singular pose at the distance
-    `miss`: the tool points ahead along x, tilted up and to the side.
+    """Poses on a straight line that rises by `slope` and passes the singular pose at a distance
+    of `miss`: the tool points ahead along x, tilted up and to the side.
     """
     along = np.array([0, np.cos(slope), np.sin(slope)])
     across = np.array([0, -np.sin(slope), np.cos(slope)])
