@@ -393,7 +393,7 @@ def _line_speeds(a, b, x, seconds):
 def test_answers_to_predictions_agree_with_other_methods():
     speeds = abs(np.array([_line_speeds(LEFT, RIGHT, x, 20) for x in np.arange(0, 1, 0.02)]))
     assert (speeds.max(axis=0) > 1.1 * speeds.min(axis=0)).all()
-    assert _right("p1") == "None of them: a straight line in space is a curve in the joints."
+    assert _right("p1") == "None of them: a straight line in space is a curve in joint space."
 
     turns = abs(IRB140.ik(RIGHT)[ROW] - IRB140.ik(LEFT)[ROW])
     least, line = (turns / IRB140.speed_limits).max(), 20 * (speeds / IRB140.speed_limits).max()

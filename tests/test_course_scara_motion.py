@@ -500,7 +500,7 @@ def test_answers_to_predictions_agree_with_other_calculations():
     assert right["p1"] == "Joint 3 alone: the others only set the place."
     assert right["p2"] == "Joint 4 alone: the tool rises or sinks evenly."
     assert right["p3"] == "x and y."
-    assert right["p4"] == "On LIN alone: the line decides what the joints do."
+    assert right["p4"] == "In LIN alone: the line decides what the joints do."
     assert right["p7"] == "Joint 3: 410° becomes 50°."
     assert float(right["p5"]) == -90 / 5 - 60 / 5
     assert float(right["p6"]) == 180

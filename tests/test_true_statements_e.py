@@ -184,7 +184,7 @@ def test_the_pointers_agree_three_times_and_nlerp_is_faster_in_the_middle():
 def test_moving_the_tip_along_base_x_is_right_only_if_the_tool_points_that_way():
     says = "along the base's x axis. That is right only while the tool points along this axis."
     assert says in written("irb140_kinematics")
-    assert flat("02", "short").count("Every angle but joint 3's comes from atan2.") == 1
+    assert flat("02", "short").count("Every angle except joint 3's comes from atan2.") == 1
     for q, right in (([0, 30, 30, 0, 0, 25], True), ([0] * 6, True), ([0, 30, 0, 0, 0, 0], False)):
         q = np.array(q) * deg
         flange = IRB140.fk(q)

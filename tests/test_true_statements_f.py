@@ -48,8 +48,8 @@ def about(axis, angle):
 
 def test_lerp_between_rotations_is_not_a_rotation():
     words = flat("01", "short")
-    assert "Between two different rotations lerp is not a rotation;" in words
-    assert "divided by its length (nlerp) it is one, but it does not rotate at constant" in words
+    assert "Between two different rotations, lerp does not return a rotation." in words
+    assert "Divided by its length (nlerp), the result is one, but it does not rotate at" in words
     third = np.array([np.cos(120 * deg), np.sin(120 * deg), 0, 0])
     # this sum of two unit quaternions has length 1, so it is a rotation
     assert np.linalg.norm([1, 0, 0, 0] + third) == pytest.approx(1)
@@ -177,9 +177,9 @@ def test_line_at_variable_speed_saves_most_of_the_lost_time_but_never_beats_ptp(
 
 def test_trapezoidal_law_brakes_at_full_strength_until_the_end():
     reason = one_line(option("irb140_motion.p4", "trapezoidal").reason)
-    assert "brakes at full strength to the very end. The quintic law fades out." in reason
+    assert "brakes at full strength to the very end. The quintic law brakes ever more" in reason
     bell = one_line(option("irb140_motion.p4", "triangle").second)
-    assert bell.endswith("of that area needs twice the mean height, and this bell needs less.")
+    assert bell.endswith("the bell-shaped curve of the quintic law is lower.")
     law = np.polynomial.Polynomial([0, 0, 0, 10, -15, 6])
     slope, brake = law.deriv(), law.deriv(2)
     ramp = 0.25  # fraction of the time; peak speed / mean speed is 1 / (1 - ramp) = 4/3
@@ -483,7 +483,7 @@ def test_the_sampled_lines_do_not_show_which_rule_is_better():
     one, other = numbers(r"fail on (\d+) and (\d+) % of them\.", reason)[:1] + numbers(
         r"^It cannot finish (\d+) % of these", reason
     )
-    (scatter,) = numbers(r"such a share scatters by (\d+) points \(standard deviation\)", reason)
+    (scatter,) = numbers(r"such a fraction scatters by (\d+) points \(standard deviation\)", reason)
     assert scatter == round(100 * np.sqrt(0.42 * 0.58 / lines))
     assert "these lines do not tell you which of the first two rules is better." in reason
     assert "the orientation over all rotations" in view("puma560_branches.p7")
