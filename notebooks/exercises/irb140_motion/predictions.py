@@ -90,7 +90,7 @@ def per_progress() -> Floats:
 
 
 def free_pace() -> Floats:
-    """The times at which LIN is at the progress S, if one joint is always at its speed limit."""
+    """The times at which LIN is at progress S, if one joint is always at its speed limit."""
     most = per_progress().max(axis=-1)
     steps = (most[1:] + most[:-1]) / 2 * np.diff(S)
     return np.concatenate([[0.0], np.cumsum(steps)])

@@ -42,7 +42,7 @@ def form(result: Any, case: tuple[Any, ...]) -> float:
 
 
 def law(case: tuple[Any, ...], yours: float, wanted: float) -> str | None:
-    """The correct speed, and the share of its limit with which a joint turns at your speed."""
+    """The correct speed, and the fraction of its limit at which a joint turns at your speed."""
     q, direction, most = case
     if abs(yours - wanted) <= 2e-3 * wanted:
         return None

@@ -180,7 +180,7 @@ def fast_fault(line: Judged, row: int, duration: float, fastest: float) -> tuple
 
 
 def unit_fault(share: float, fastest: float, says: str) -> tuple[str, str] | None:
-    """The fault of a duration that is this share of the correct one; None: no known fault."""
+    """The fault of a duration that is this fraction of the correct one; None: no known fault."""
     for wrong in (deg, 1 / deg):
         if 0.995 < share / wrong < LONGEST:
             says += " Give the joint speed and fastest in the same unit: both in rad/s."
