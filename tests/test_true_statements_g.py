@@ -205,7 +205,8 @@ def test_path_over_the_axis_costs_the_whole_move_to_it():
 
 def test_another_factor_makes_another_point_the_nearest():
     words = flat("08", "visit-other-look")
-    assert "At 1 and 1.5 it is point 0, a lure. At 2 it is point 1, and nearest first" in words
+    assert "At factors of 1 and 1.5 it is point 0, a lure." in words
+    assert "At 2 it is point 1, and nearest first" in words
     assert "nearest first does as well as the best order." in words
     for factor, first, equal in ((1, 1, False), (1.5, 1, False), (2, 2, True)):
         changed = [("uphill = 1.5", f"uphill = {factor}")]
@@ -315,7 +316,7 @@ def test_time_to_collect_is_three_times_the_time_to_visit():
     assert (
         "# worth: T_collect is 3 T; a cheap one costs T, the valuable one 2.4 T" in TRAPS.solution
     )
-    assert "there and back: T of the 3 T), the valuable one at −1.2 B (2.4 T)" in one_line(
+    assert "there and back it takes T of the 3 T), the valuable one at −1.2 B (2.4 T)" in one_line(
         TRAPS.hints[2]
     )
     assert "there is time for 1.5 B there and back" in one_line(TRAPS.hints[1])
@@ -338,10 +339,10 @@ def test_time_to_collect_is_three_times_the_time_to_visit():
 
 def test_all_differences_are_negative_in_the_stated_range():
     words = flat("08", "check-look")
-    (stated,) = numbers(r"a share of (\S+) in front: every difference is negative", words)
+    (stated,) = numbers(r"accepts a `share` of (\S+): every difference is negative", words)
     assert f"\nshare = {stated:g} " in cells("08")["check-code"]
     low, high = 0.25, 1
-    assert low < stated < high and "`turned away` passes in the same way." in words
+    assert low < stated < high and "`turned away` passes for the same reason." in words
     aim = np.array([2.0, 3, 2])
     least = 1 / np.linalg.norm(aim)  # below this share, the place is nearer than 1 m
     assert least < low < high == 1
