@@ -560,7 +560,7 @@ def test_random_choice_turns_joints_less_as_often_as_stated_but_never_from_the_s
     )
     told = r"In (\d+) of these (\d+) tasks the second arm turns less than the first, because"
     fewer, tasks = numbers(told, reason)
-    assert "one day of ten, on average, and lose time on the other nine" in one_line(found.second)
+    assert "one day in ten, on average, and lose time on the other nine" in one_line(found.second)
     law = "from the same posture, no rule can turn the joints less than least movement"
     assert law in flat("09", "race-look")
     drawn = np.random.default_rng(4).uniform(0, np.pi, (300, 3))
@@ -655,7 +655,8 @@ def test_arctan2_works_at_x_equal_to_0():
 def test_clipped_arm_stretches_or_folds_and_does_not_reach_k():
     words = says("three_levers", "clipped where there is no triangle")
     assert words.endswith(
-        "With clipped cosines the arm stretches or folds, does not reach K, and no one is told."
+        "With clipped cosines the arm stretches or folds and does not reach K, and your program "
+        "does not say so."
     )
     condition, space = "abs(a - KB) <= KO <= a + KB", {}
     assert LEVERS.solution.count(condition) == 1
