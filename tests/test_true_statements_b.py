@@ -271,7 +271,8 @@ def test_noise_in_the_last_bit_does_not_change_the_race(monkeypatch):
 def test_random_choice_turns_the_joints_more_by_the_stated_factor():
     question, options, right = asked("three_levers.p10")
     places, _, seed = race_of_the_cell(100)
-    assert question.startswith("An arm visits 100 targets") and "evenly from 0° to 180°" in question
+    assert question.startswith("An arm visits 100 targets")
+    assert "uniformly from 0° to 180°" in question
     stand = {name: np.array([60, 120, 120]) * deg for name in ("least", "dice", "equal")}
     turned, dice = dict.fromkeys(stand, 0.0), np.random.default_rng(seed)
 
@@ -482,7 +483,7 @@ def test_search_finds_no_path_on_a_15_degree_grid_but_finds_one_on_a_5_degree_gr
 
 def test_the_documents_test_finds_as_few_obstacles_as_stated():
     question, options, right = asked("obstacle_avoidance.p1")
-    for words in ("evenly from 0° to 180°", "from 1.1 to 2.9 m", "from 0° to 120°", "box round"):
+    for words in ("uniformly from 0° to 180°", "from 1.1 to 2.9 m", "from 0° to 120°", "box round"):
         assert words in options[right][1]
     path = pytest.importorskip("matplotlib.path").Path
 

@@ -587,7 +587,7 @@ def test_ranges_of_alpha_and_gamma_are_as_stated():
 
 def test_greedy_rule_is_compared_with_the_best_of_all_choices():
     question, options, right = asked("three_levers.p9")
-    assert question.endswith("Which arm has turned less in the end?")
+    assert question.endswith("Which arm has turned its joints less in the end?")
     tours, _, count, most, rows = numbers(
         r"Of (\d+) random lists of (\d+) targets, the greedy arm turns over 5 % more than the "
         r"planning arm on (\d+), and (\d+) % more on the worst. \(The plan uses the best of (\d+) "

@@ -205,7 +205,8 @@ def test_path_over_the_axis_costs_the_whole_move_to_it():
 
 def test_another_factor_makes_another_point_the_nearest():
     words = flat("08", "visit-other-look")
-    assert "At 1 and 1.5 it is point 0, a lure. At 2 it is point 1, and nearest first" in words
+    assert "At factors of 1 and 1.5 it is point 0, a lure." in words
+    assert "At 2 it is point 1, and nearest first" in words
     assert "nearest first does as well as the best order." in words
     for factor, first, equal in ((1, 1, False), (1.5, 1, False), (2, 2, True)):
         changed = [("uphill = 1.5", f"uphill = {factor}")]
@@ -279,8 +280,8 @@ def test_second_postures_gain_points_in_as_many_random_tasks_as_stated():
 
 def test_another_round_trip_beats_nearest_first_as_stated():
     reason = one_line(option("visit_and_collect.p5", "emptied at the end").reason)
-    assert "this is visiting, with a return at the end. At" in reason
-    told = r"At (\d+) s nearest first brings (\d) of the opening's points, and another order"
+    assert "this is visiting, with a return at the end. Within" in reason
+    told = r"Within (\d+) s nearest first brings (\d) of the opening's points, and another order"
     T, few, many = numbers(rf"{told} brings (\d)\.", reason)
     legs = table(opening())
     rules = (
@@ -315,7 +316,7 @@ def test_time_to_collect_is_three_times_the_time_to_visit():
     assert (
         "# worth: T_collect is 3 T; a cheap one costs T, the valuable one 2.4 T" in TRAPS.solution
     )
-    assert "there and back: T of the 3 T), the valuable one at −1.2 B (2.4 T)" in one_line(
+    assert "there and back it takes T of the 3 T), the valuable one at −1.2 B (2.4 T)" in one_line(
         TRAPS.hints[2]
     )
     assert "there is time for 1.5 B there and back" in one_line(TRAPS.hints[1])
@@ -338,10 +339,10 @@ def test_time_to_collect_is_three_times_the_time_to_visit():
 
 def test_all_differences_are_negative_in_the_stated_range():
     words = flat("08", "check-look")
-    (stated,) = numbers(r"a share of (\S+) in front: every difference is negative", words)
+    (stated,) = numbers(r"accepts a `share` of (\S+): every difference is negative", words)
     assert f"\nshare = {stated:g} " in cells("08")["check-code"]
     low, high = 0.25, 1
-    assert low < stated < high and "`turned away` passes in the same way." in words
+    assert low < stated < high and "`turned away` passes for the same reason." in words
     aim = np.array([2.0, 3, 2])
     least = 1 / np.linalg.norm(aim)  # below this share, the place is nearer than 1 m
     assert least < low < high == 1
@@ -559,7 +560,7 @@ def test_random_choice_turns_joints_less_as_often_as_stated_but_never_from_the_s
     )
     told = r"In (\d+) of these (\d+) tasks the second arm turns less than the first, because"
     fewer, tasks = numbers(told, reason)
-    assert "one day of ten, on average, and lose time on the other nine" in one_line(found.second)
+    assert "one day in ten, on average, and lose time on the other nine" in one_line(found.second)
     law = "from the same posture, no rule can turn the joints less than least movement"
     assert law in flat("09", "race-look")
     drawn = np.random.default_rng(4).uniform(0, np.pi, (300, 3))
@@ -654,7 +655,8 @@ def test_arctan2_works_at_x_equal_to_0():
 def test_clipped_arm_stretches_or_folds_and_does_not_reach_k():
     words = says("three_levers", "clipped where there is no triangle")
     assert words.endswith(
-        "With clipped cosines the arm stretches or folds, does not reach K, and no one is told."
+        "With clipped cosines the arm stretches or folds and does not reach K, and your program "
+        "does not say so."
     )
     condition, space = "abs(a - KB) <= KO <= a + KB", {}
     assert LEVERS.solution.count(condition) == 1

@@ -118,7 +118,7 @@ WHY = {
     "rounded down": "You rounded the bound down. With so few arms, more objects come than they "
     "have time for.",
     "there without back": "c is the time there and back: twice the time of one way.",
-    "the bin of the lab": "You used c of the lab's bin. Your bin has another c.",
+    "the bin of the lab": "You used c of the lab's bin. Your bin has a different c.",
     "the mean over the window": "You used the mean over the window. It is no bound: the arms "
     "may take most objects near the bin. Use the least time.",
     "another bound": "The bound is c v / g, rounded up: c is 2 ways_from([x, y, 0.25]).min() for "

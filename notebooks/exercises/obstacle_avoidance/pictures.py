@@ -128,7 +128,7 @@ def p4_view() -> Any:
         ax,
         100 * s,
         {"nearest lever": fine},
-        xlabel="share of the motion, %",
+        xlabel="part of the motion, %",
         ylabel="nearest lever, m",
         title="The valley lies between two of the samples",
     )

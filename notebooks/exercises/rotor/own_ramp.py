@@ -63,7 +63,7 @@ def faults(answer: Ramp, numbers: Any) -> list[Fault]:
             found.append((name, says))
     if takes > within:
         took, allowed = apart(takes, within, 2)
-        says = f"The move takes {took} s; allowed are {allowed} s."
+        says = f"The move takes {took} s; {allowed} s are allowed."
         late = answer[2] > 1 and ramp(PULSES, *answer[:2], answer[2] / 1000)[-1] <= within
         if late:
             says += " The time of the ramp is in seconds."
@@ -71,7 +71,7 @@ def faults(answer: Ramp, numbers: Any) -> list[Fault]:
     return found
 
 
-WAYS = "A ramp that begins lower, ends lower, or takes longer loses fewer."
+WAYS = "A ramp that begins lower, ends lower, or takes longer loses fewer steps."
 
 
 def why_lost(answer: Ramp, load: float) -> str:

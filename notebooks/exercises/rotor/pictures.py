@@ -26,7 +26,7 @@ def p8_view() -> Any:
         away,
         {"magnet": np.sin(away * deg), "plain iron": np.sin(2 * away * deg)},
         xlabel="field ahead of the rotor, °",
-        ylabel="torque, share of the greatest",
+        ylabel="torque, fraction of the greatest",
         title="A quarter turn ahead pulls a magnet, not plain iron",
     )
     ax.axvline(90, color=INK, lw=1, ls=":")

@@ -22,7 +22,7 @@ def panels(alt: str, count: int = 1, height: float = 3.5, **keywords: Any) -> tu
 def p1_view() -> Any:
     alpha = of.BENT[2] / deg
     sketch = Sketch(
-        "The upright arm dashed, the bent one drawn: the last lever has turned to the right by "
+        "The upright arm is dashed, the bent one solid: the last lever has turned to the right by "
         "60 degrees; the angle inside, between AB and AK, is 120 degrees.",
         title=f"An interior angle of {alpha:.0f}° is a turn of {180 - alpha:.0f}° to the right",
         unit="m",
@@ -40,7 +40,7 @@ def p2_view() -> Any:
     low = ARM.alpha_range(np.stack([KO, 0 * KO], axis=-1), limited=False)[0] / deg
     fig, ax = panels(
         "The angles alpha that reach K, against the distance KO: from 0 to 180 degrees at 1 m, "
-        "180 degrees alone at 3 m.",
+        "only 180 degrees at 3 m.",
         height=3.4,
     )
     ax.fill_between(KO, low, 180, color=FIRST_AREA, linewidth=0)
@@ -58,7 +58,7 @@ def p3_view() -> Any:
     alphas = np.linspace(low, high, 241)
     family = ARM.family(K, alphas) / deg
     fig, (left, right) = panels(
-        "Left: nine postures of the family, the symmetric one strongly. Right: beta falls and "
+        "Left: nine postures of the family, the symmetric one in bold. Right: beta falls and "
         "gamma grows with alpha; beta and alpha are equal at one place.",
         count=2,
         height=3.7,
@@ -100,8 +100,8 @@ def p5_view() -> Any:
     ring = of.BEHIND_KO * direction(phi * deg)
     every, kept = (np.array(ARM.alpha_range(ring, limited=flag)) / deg for flag in (False, True))
     fig, ax = panels(
-        "Range of alpha for targets 2 m away against their direction. Up to about 104 degrees all "
-        "of it is usable; then less and less, and from about 151 degrees on nothing.",
+        "The range of alpha for targets 2 m away, against their direction. Up to about 104 degrees "
+        "all of it is usable; then less and less, and from about 151 degrees on none of it.",
         height=3.4,
     )
     ax.fill_between(phi, *every, facecolor=AREA, edgecolor=SOFT, hatch="//", linewidth=0)

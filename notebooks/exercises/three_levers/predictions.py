@@ -185,7 +185,7 @@ def best_in_all(before: Any, tour: Any, count: int = ROWS) -> float:
 
 @cache
 def losses() -> Any:
-    """The share of S that the greedy rule loses in each tour."""
+    """The fraction of S that the greedy rule loses in each tour."""
     rng = np.random.default_rng(1)
     r, phi = rng.uniform(1.1, 2.9, (400, STOPS)), rng.uniform(0, 150, (400, STOPS)) * deg
     tours = r[..., None] * direction(phi)

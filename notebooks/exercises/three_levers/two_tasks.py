@@ -76,7 +76,7 @@ def drawn(who: str) -> Numbers:
 
 def given(who: Any) -> Numbers:
     """A posture, two targets and two limits. Least movement task by task exceeds the first limit;
-    some pairs of postures on a grid of 1° keep both.
+    some pairs of postures on a grid of 1° keep within both.
     """
     return Numbers(dict(drawn(str(who))), UNITS)
 

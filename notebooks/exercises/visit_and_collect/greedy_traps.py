@@ -24,8 +24,8 @@ NO_TRAP = "no trap"
 NOBODY = "your name"  # the placeholder in the lab
 KNOWN = np.array(FOUR)
 GIVEN_UP = {
-    "visit": "What a point costs depends on where the arm comes from: the opening has such a case, "
-    "with other numbers.",
+    "visit": "The cost of a point depends on where the arm comes from: the opening has such a "
+    "case, with other numbers.",
     "worth": "Cheapest first brings the most objects, but they need not be worth the most: let a "
     "cheap one use up the time that the valuable one needs.",
 }
@@ -190,7 +190,7 @@ def not_beaten(task: str, points: Floats, numbers: Any) -> Fault | None:
     if task == "visit" and len(best) - len(greedy) < LOST:
         if len(best) == len(greedy):
             return "the rule is not beaten", f"{told} No order does better."
-        return "one point lost, not two", f"{told} If it loses one more, it is a trap."
+        return "one point lost, not two", f"{told} If nearest first loses one more, this is a trap."
     if task == "worth":
         first, most = worths(numbers, greedy, best)
         if first == most:

@@ -44,7 +44,7 @@ def p2_view() -> Any:
 def p3_view() -> Any:
     shares = p3()["shares"]
     says = (
-        f"Bars: of the points nearer than 1 m to the axis {shares[0]:.0f} percent have a second "
+        f"Bars: of the points within 1 m of the axis, {shares[0]:.0f} percent have a second "
         f"posture inside the limits, of those farther than 8 m {shares[-1]:.0f} percent."
     )
     fig = figure(says, height=3)
@@ -104,7 +104,7 @@ def p6_view() -> Any:
         {"nearest first": few, "best order": many},
         xlabel="time allowed T, s",
         ylabel="points touched",
-        title="Nearest first pays for the lure with the way back",
+        title="Nearest first loses its time on the way back from the lure",
     )
     fig.tight_layout()
     return fig

@@ -29,7 +29,7 @@ def p2() -> dict[str, Any]:
 
 @cache
 def p3() -> Mapping[str, Any]:
-    """The share of random points of the workspace that have two postures inside the limits."""
+    """How many random points of the workspace have two postures inside the limits."""
     box = np.random.default_rng(0).uniform([-9, -9, 0], [9, 9, 9], size=(20000, 3))
     cloud = box[jobs.workspace(L1, L2, box).all(axis=-1)]
     count = within(ARM, ARM.ik(cloud)).all(axis=-1).sum(axis=-1)
