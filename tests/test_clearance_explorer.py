@@ -171,6 +171,19 @@ def test_arm_follows_the_curve_and_a_button_returns_to_the_nearest_moment(opened
     assert again.says == first.says and "The picture shows" not in first.says
 
 
+@pytest.mark.parametrize("width", [390, 1036])
+def test_height_stays_when_the_slider_first_moves(opened, width):
+    shown = opened(view(), ARM)
+    shown.page.set_viewport_size({"width": width, "height": 900})
+    shown.look()
+    heights = [shown.rk.bounding_box()["height"]]
+    for percent in (0, 37, 100):
+        shown.type("motion", percent)
+        assert "The picture shows" in shown.look().says
+        heights.append(shown.rk.bounding_box()["height"])
+    assert max(heights) - min(heights) < 1, "the page below the view jumps"
+
+
 def test_page_names_the_point_that_is_out_of_reach_and_says_why(opened):
     shown = opened(view(), ARM)
     shown.press("K3", *["Shift+ArrowDown"] * 9)  # (1.05, 0.3)

@@ -88,7 +88,7 @@ def test_adding_samples_never_increases_the_least_distance_found():
 
 def test_five_of_the_six_plans_exist_and_fold_the_arm_as_stated():
     most, least = numbers(
-        r"five plans.*one no.* from (\d+) down to (\d+) ", shown("10", "deeper-figure")
+        r"five plans.*one no.* falls from (\d+) to (\d+) ", shown("10", "deeper-figure")
     )
     (listed,) = re.findall(r"moving_figure\((\[.*\])\)", cells("10")["deeper-figure"])
     places = np.array(eval(listed))
