@@ -56,6 +56,7 @@ def numbers(shown):
     """Return the distance from via in mm, the joint that accelerates most, and its acceleration in
     °/s².
     """
+    shown.look()  # the acceleration is told in the frame after a release, not during a drag
     told = shown.rk.locator(".rk-told").inner_text().replace("−", "-")
     assert "NaN" not in told
     near = re.search(r"The path passes (\S+) mm from via\.", told)
