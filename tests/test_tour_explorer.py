@@ -99,7 +99,7 @@ def test_best_order_of_many_points_is_computed_only_after_release():
 def test_loss_of_the_greedy_tour_is_reported():
     # errata S0-q: going to the nearest point first costs two points
     said = answered(asked(), SPEEDS)["says"]
-    assert said == "Greed loses 2 points: nearest first visits 1 of 4, the best order 3."
+    assert said == "Greed loses 2 points: nearest first visits 1 of 4, and the best order 3."
     assert "loses nothing" in answered(asked(T=20), SPEEDS)["says"]
     assert "loses no point, but 9.50 s" in answered(asked(T=16.2), SPEEDS)["says"]
     away = asked(points=[*FOUR[1:].tolist(), [0, 0, 12]])
