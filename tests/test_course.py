@@ -599,7 +599,7 @@ WRITTEN = {
         planes,
         lambda x, y: np.arcsin(y / np.hypot(x, y)),
     ),
-    "x and y exchanged": ("np.arctan2(b, a)", planes, lambda x, y: np.arctan2(x, y)),
+    "x and y swapped": ("np.arctan2(b, a)", planes, lambda x, y: np.arctan2(x, y)),
     "the long way round": (
         "a + (wrapped(3 * b, a) - a) / 2",
         angles,

@@ -185,10 +185,10 @@ def filled_backward(q, speeds):
     [
         (filled_backward, "turned on the way to the axis"),
         (nothing, "NaN costs nothing, both ways"),
-        (lambda q, speeds: nothing(np.nan_to_num(q), speeds), "NaN taken for 0"),
+        (lambda q, speeds: nothing(np.nan_to_num(q), speeds), "0 instead of NaN"),
         (
             lambda q, speeds: np.diff(nothing(np.nan_to_num(q), speeds), prepend=0),
-            "NaN taken for 0, and times of the moves, not added up",
+            "0 instead of NaN, and times of the moves, not added up",
         ),
         (forward_only, "a start on the axis left out"),
         (

@@ -346,7 +346,7 @@ def test_phi_loses_digits_as_stated():
 
 def test_unwrapping_matters_only_for_joint_6():
     words = flat("07", "choose-rule")
-    told = "at every sample, it can go wrong for joint 6 alone, with its range of 532°."
+    told = "This matters only for joint 6, with its range of 532°."
     assert told in words
     low, high = PUMA560.limits.T
     assert ((high - low) / deg > 360).tolist() == [False] * 5 + [True]
@@ -365,7 +365,9 @@ def test_unwrapping_matters_only_for_joint_6():
 
 def test_rows_4_to_6_end_with_a_joint_beyond_its_limit():
     words = flat("07", "choose-look")
-    assert "rows 3 to 6 are usable at the start *and* at the goal, and pass a limit in" in words
+    assert (
+        "rows 3 to 6 are usable at the start *and* at the goal, but they pass a limit in" in words
+    )
     told = flat("07", "deeper-nearest-look")
     assert "Rows 4 to 6 of that line end with a joint wound past its limit" in told
     made = run_cells("07", "choose-player")
@@ -383,7 +385,7 @@ def test_rows_4_to_6_end_with_a_joint_beyond_its_limit():
 
 
 def test_longer_moves_to_rows_5_and_7_avoid_the_limit_of_joint_2():
-    assert "In rows 5 and 7 the best move is longer than the one to the values" in flat(
+    assert "In rows 5 and 7, the best move is longer than the move to the values" in flat(
         "07", "deeper-ptp-look"
     )
     made = run_cells("07", "deeper-ptp")
@@ -425,7 +427,9 @@ def test_statements_on_the_worst_case_and_the_ellipsoid_are_true():
     sigma = float(LINE["near"](q))
     assert np.linalg.norm(J @ left) == pytest.approx(sigma)
     assert (np.linalg.norm(J @ np.random.default_rng(1).normal(size=(6, 50)), axis=0) > sigma).any()
-    assert "the ellipsoid goes flat, to 1 mm/s." in flat("07", "near-look")
+    assert "the ellipsoid becomes flat, and its shortest semi-axis falls to 1 mm/s." in flat(
+        "07", "near-look"
+    )
     steps = 1e-6 * np.eye(6)
     q = np.array([0, 60, -87, 0, 0, 0]) * deg
     A = (PUMA560.fk(q + steps).translation - PUMA560.fk(q - steps).translation).T / 2e-6
@@ -434,7 +438,7 @@ def test_statements_on_the_worst_case_and_the_ellipsoid_are_true():
 
 def test_elbow_line_ends_at_the_stated_distance_from_full_stretch():
     told = flat("07", "cross-jacobian")
-    assert "*elbow* goes outwards and ends $m$ before full stretch" in told
+    assert "*elbow* goes outwards and stops $m$ short of full stretch" in told
     made = run_cells("07", "cross-player", "cross-cost")
     _, pose, away, along = made["LINES"]["elbow"]
     assert along.tolist() == [1, 0, 0] and away.tolist() == [-1, 0, 0]
@@ -449,7 +453,7 @@ def test_elbow_line_ends_at_the_stated_distance_from_full_stretch():
 def test_arm_is_stretched_and_forearm_points_up_where_stated():
     assert "atan2}(d_4, a_3) = -87.3°$" in flat("07", "triangle-formula")
     words = written("puma560_branches")
-    assert "At q2 = q3 = 0 the forearm points up" in words
+    assert "At q2 = q3 = 0, the forearm points up" in words
     for q3 in (-87.3, -90, 0):
         places = PUMA560.frames(np.array([0, 0, q3, 0, 0, 0]) * deg).translation
         shoulder, elbow, wrist = places[[1, 2, 4]] + np.array([[0], [0], [0.15005]]) * [0, 1, 0]
@@ -463,7 +467,7 @@ def test_arm_is_stretched_and_forearm_points_up_where_stated():
 
 def test_rows_0_and_2_of_the_first_view_share_only_joint_1():
     text = flat("07", "eight")
-    assert "same value in rows 0 and 2?" in text and "Joint 1. The elbow moves" in text
+    assert "same value in rows 0 and 2?" in text and "It is joint 1. The elbow moves" in text
     level = Quaternion.from_angle_axis(90 * deg, [0, 1, 0])
     rows = PUMA560.ik(Transform(level, np.array([550, 0, 800]) * mm))
     off = abs(np.exp(1j * rows[0]) - np.exp(1j * rows[2]))
@@ -497,7 +501,7 @@ def test_front_row_exceeds_the_limit_of_joint_1_for_far_poses_straight_behind():
 
 def test_most_short_lines_keep_their_row():
     _, options, _ = asked("puma560_branches.p7")
-    assert any(o.reason.startswith("On most short lines a row that is usable") for o in options)
+    assert any(o.reason.startswith("On most short lines, a row that is usable") for o in options)
     rng = np.random.default_rng(9)
     ends = LINE["random_poses"](rng, (300,))
     way = rng.normal(size=(300, 3))
@@ -523,7 +527,7 @@ def test_motion_starts_gently_and_the_slider_sets_the_mean_speed():
     u = np.linspace(0, 1, 20001)
     law = 10 * u**3 - 15 * u**4 + 6 * u**5
     assert np.diff(law).max() * 20000 == pytest.approx(15 / 8, abs=1e-6)
-    assert "Choose a mean speed of joint 1 with the slider" in flat("08", "time-take")
+    assert "Choose a mean speed of joint 1, press play" in flat("08", "time-take")
     (most,) = numbers(
         r"greatest speed of \d+ samples (\S+) °/s \(joint 1\)", shown("08", "time-player")
     )
@@ -560,7 +564,7 @@ def test_other_elbow_exceeds_its_limit_except_at_the_workspace_boundary():
 
 
 def test_at_most_ten_reasons_of_one_kind_are_listed():
-    assert "names what is wrong, with at most ten reasons of one kind" in flat(
+    assert "says what is wrong, with at most ten reasons of each kind" in flat(
         "08", "deeper-command"
     )
     far = [[20 + k, 0, 0] for k in range(15)]

@@ -189,7 +189,9 @@ def test_point_3_comes_first_once_it_is_nearer_than_point_0():
 
 
 def test_path_over_the_axis_costs_the_whole_move_to_it():
-    assert "It costs the whole move from point 0 to the axis" in flat("08", "time-axis-cost")
+    assert "It takes longer by the whole move from point 0 to the axis" in flat(
+        "08", "time-axis-cost"
+    )
     places = [[-2, 0.01, 4], [-2, 0.5, 4], [0, 0, 6.5], [2, -0.01, 4]]
     assert f"over = {places[1:]}  # m" in cells("08")["time-axis-explorer"]
     assert f"p0={places[0]}" in cells("08")["time-axis-explorer"]
@@ -205,8 +207,8 @@ def test_path_over_the_axis_costs_the_whole_move_to_it():
 
 def test_another_factor_makes_another_point_the_nearest():
     words = flat("08", "visit-other-look")
-    assert "At factors of 1 and 1.5 it is point 0, a lure." in words
-    assert "At 2 it is point 1, and nearest first" in words
+    assert "With factors of 1 and 1.5, it is point 0, a lure." in words
+    assert "With a factor of 2, it is point 1, and nearest first" in words
     assert "nearest first does as well as the best order." in words
     for factor, first, equal in ((1, 1, False), (1.5, 1, False), (2, 2, True)):
         changed = [("uphill = 1.5", f"uphill = {factor}")]
@@ -281,7 +283,9 @@ def test_second_postures_gain_points_in_as_many_random_tasks_as_stated():
 def test_another_round_trip_beats_nearest_first_as_stated():
     reason = one_line(option("visit_and_collect.p5", "emptied at the end").reason)
     assert "this is visiting, with a return at the end. Within" in reason
-    told = r"Within (\d+) s nearest first brings (\d) of the opening's points, and another order"
+    told = (
+        r"Within (\d+) s, nearest first brings (\d) of the points in the opening, and another order"
+    )
     T, few, many = numbers(rf"{told} brings (\d)\.", reason)
     legs = table(opening())
     rules = (
@@ -653,7 +657,7 @@ def test_arctan2_works_at_x_equal_to_0():
 
 
 def test_clipped_arm_stretches_or_folds_and_does_not_reach_k():
-    words = says("three_levers", "clipped where there is no triangle")
+    words = says("three_levers", "clipped if there is no triangle")
     assert words.endswith(
         "With clipped cosines the arm stretches or folds and does not reach K, and your program "
         "does not say so."
