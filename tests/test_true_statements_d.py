@@ -119,13 +119,13 @@ def test_gripper_distance_and_success_of_larger_circles_are_as_stated():
         mended += small >= 1e-6 and large >= DISTANCE
         lost += small < 1e-6 and large >= DISTANCE
     text = flat("10", "often-look")
-    assert numbers(r"saves (\d+) of the (\d+) that .* none of the (\d+) in", text) == [
+    assert numbers(r"helps in (\d+) of the (\d+) tasks .* none of the (\d+) in", text) == [
         mended,
         100 - swept,
         swept,
     ]
     _, options, _ = asked("obstacle_avoidance.p7")
-    assert lost == 0 and f"none of them among the {swept:.0f} in" in options[1].reason
+    assert lost == 0 and f"but none of the {swept:.0f} tasks in" in options[1].reason
     assert options[1].reason.startswith(f"{mended} of 100")
     assert f"Of the {swept} tasks" in options[2].second
     shown_view = view("obstacle_avoidance.p7")

@@ -607,7 +607,9 @@ def test_width_of_the_narrower_range_follows_from_inverse_proportion():
         found.reason
     )
     second = one_line(found.second)
-    (far,) = numbers(r"In inverse proportion the arm could still choose at (\S+) m, where", second)
+    (far,) = numbers(
+        r"In inverse proportion, the arm would still have a choice at (\S+) m, which", second
+    )
     assert width(1.5) * 1.5 / far > 1 and far > 3
     falls = [(width(a) - width(b)) / (b - a) for a, b in pairwise([2.0, 2.5, 2.9, 2.99, 3.0])]
     # the fall becomes steeper and steeper
@@ -617,8 +619,9 @@ def test_width_of_the_narrower_range_follows_from_inverse_proportion():
 def test_recipe_for_the_other_bend_reaches_targets_behind_the_base():
     words = flat("09", "deeper-more")
     assert (
-        "Mirror K in the x axis, solve with `posture` of section 2, mirror back, and check the "
-        r"limit of $\gamma$ only then. Which targets behind the base does this arm reach?" in words
+        "Mirror K in the x axis, solve with `posture` of section 2, and mirror the result back. "
+        r"Check the limit of $\gamma$ only then. Which targets behind the base does this arm reach?"
+        in words
     )
     assert "in every direction behind the base: at 1.2, 2.0 and 2.8 m we find postures" in words
     made = quietly("09", "chain-explorer", "chain-code", "angles-code")
@@ -659,8 +662,7 @@ def test_arctan2_works_at_x_equal_to_0():
 def test_clipped_arm_stretches_or_folds_and_does_not_reach_k():
     words = says("three_levers", "clipped if there is no triangle")
     assert words.endswith(
-        "With clipped cosines the arm stretches or folds and does not reach K, and your program "
-        "does not say so."
+        "Your program clips the cosines: it returns a stretched or folded arm that does not reach K."
     )
     condition, space = "abs(a - KB) <= KO <= a + KB", {}
     assert LEVERS.solution.count(condition) == 1
@@ -689,7 +691,9 @@ def test_clipped_arm_stretches_or_folds_and_does_not_reach_k():
 
 
 def test_plans_for_80_mm_wide_levers_exist_but_one_needs_a_larger_circle():
-    claim = "wherever thin levers (width 0) have one, but past (1.6, 1.3) m they need a larger"
+    claim = (
+        "wherever there is one for thin levers (width 0), but past (1.6, 1.3) m they need a larger"
+    )
     assert any(claim in text for text in cells("10").values())
     answers = []
     for width in (0, 0.08):

@@ -108,7 +108,7 @@ SLIPS = {
     "inverse left out": "You need an inverse somewhere, but you use the original.",
     "arcsin for atan2": "The angle is computed from its sine alone, which gives only half of all "
     "directions. Use arctan2 of sine and cosine.",
-    "x and y exchanged": "arctan2 takes y first, then x.",
+    "x and y swapped": "arctan2 takes y first, then x.",
     "sine for cosine": "A sine is used instead of a cosine, or a cosine instead of a sine.",
     "a root left out": "A square root is missing.",
     "a square left out": "A square is missing.",
@@ -197,7 +197,7 @@ def _in_calls(node: Any, said: Callable[[Any], str]) -> Iterator[tuple[str, Any,
         case ast.Call(func=ast.Attribute(value=a, attr="inverse"), args=[]):
             yield "inverse left out", node, said(a)
         case ast.Call(func=ast.Attribute(attr="arctan2"), args=[y, x]):
-            yield "x and y exchanged", node, f"np.arctan2({said(x)}, {said(y)})"
+            yield "x and y swapped", node, f"np.arctan2({said(x)}, {said(y)})"
             sine = f"{said(y)} / np.hypot({said(y)}, {said(x)})"
             yield "arcsin for atan2", node, f"np.arcsin({sine})"
         case ast.Call(func=ast.Attribute(attr="sqrt"), args=[a]):

@@ -130,7 +130,7 @@ RESULTS = (
     ("off by one sample", "Every value comes one sample too late.", _sample(+1)),
     ("off by one sample", "Every value comes one sample too early.", _sample(-1)),
     (
-        "True and False exchanged",
+        "True and False swapped",
         "It returns True where it should return False, and False where it should return True.",
         _not,
     ),
