@@ -661,9 +661,7 @@ def test_arctan2_works_at_x_equal_to_0():
 
 def test_clipped_arm_stretches_or_folds_and_does_not_reach_k():
     words = says("three_levers", "clipped if there is no triangle")
-    assert words.endswith(
-        "Your program clips the cosines: it returns a stretched or folded arm that does not reach K."
-    )
+    assert words.endswith("it returns a stretched or folded arm that does not reach K.")
     condition, space = "abs(a - KB) <= KO <= a + KB", {}
     assert LEVERS.solution.count(condition) == 1
     exec(LEVERS.solution.replace(condition, "True"), space)
