@@ -341,7 +341,7 @@ def test_taps_build_the_readers_order(browser, tmp_path):
     handle(page, "0").click()  # now the order contains all points
     page.evaluate(FRAMES)
     assert cells(page)[1] == told(CIRCLE, best_visit)[0]
-    assert page.locator(".rk-says").inner_text().endswith("visits 1 of 4, the best order 3.")
+    assert page.locator(".rk-says").inner_text().endswith("visits 1 of 4, and the best order 3.")
     page.get_by_role("button", name="Clear order").click()
     page.evaluate(FRAMES)
     assert cells(page)[2] == ["–"] * 3 and cells(page)[1] == told(CIRCLE, best_visit)[0]
