@@ -112,8 +112,9 @@ def scores(task: str, points: Floats, numbers: Any) -> str:
     greedy, best = both(task, points, numbers)
     a, b, (first, most) = len(greedy), len(best), worths(numbers, greedy, best)
     told = {
-        "visit": f"nearest first visits {a} of 4 (order {greedy}), and the best order {b} ({best}).",
-        "collect": f"cheapest first brings {a} of 4 ({greedy}), and the best choice {b}.",
+        "visit": f"nearest first visits {a} of 4 (order {greedy}), and the best order visits {b} "
+        f"({best}).",
+        "collect": f"cheapest first brings {a} of 4 ({greedy}), and the best choice brings {b}.",
         "worth": f"cheapest first brings {greedy}, worth {first}; the best choice is {best}, worth "
         f"{most}.",
     }
