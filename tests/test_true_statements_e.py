@@ -685,7 +685,7 @@ def test_answers_to_the_questions_about_the_views_of_lab_10_are_true():
     assert [found[0], found[2]] == pytest.approx(near, abs=0.06) and max(near) * mm < DISTANCE
     on_AK = [lever_distance(q, H, slice(2, 3)) for q in rule]
     assert on_AK == pytest.approx([lever_distance(q, H) for q in rule])
-    pair, kept = said_pair("via-rule", r"K2 = (.*?) m and K3 = (.*?) m, .* clearance is (\S+) mm")
+    pair, kept = said_pair("via-rule", r"K2 = (.*?) m and K3 = (.*?) m, the clearance is (\S+) mm")
     assert least_distance(through(*pair), H) / mm == pytest.approx(kept, abs=0.06)
     assert kept * mm > DISTANCE
 

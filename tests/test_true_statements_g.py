@@ -189,7 +189,7 @@ def test_point_3_comes_first_once_it_is_nearer_than_point_0():
 
 
 def test_path_over_the_axis_costs_the_whole_move_to_it():
-    assert "It takes longer by the whole move from point 0 to the axis" in flat(
+    assert "The stop adds the whole move from point 0 to the axis" in flat(
         "08", "time-axis-cost"
     )
     places = [[-2, 0.01, 4], [-2, 0.5, 4], [0, 0, 6.5], [2, -0.01, 4]]
