@@ -757,7 +757,7 @@ def test_plan_tries_more_circles_than_control():
     assert "like `control`, but with more circles, and it begins with the via" in words
     assert "for r in (distance, 0.16, 0.20, 0.25)" in cells("10")["control-code"]
     assert "r = 180 mm" in shown("10", "deeper-two-code")
-    assert "six places of the obstacle, side by side." in flat("10", "deeper-moving")
+    assert "six positions of the obstacle, side by side." in flat("10", "deeper-moving")
     assert "*Play* shows a coarse search." in flat("10", "cube")
 
 
