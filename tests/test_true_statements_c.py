@@ -339,7 +339,9 @@ def test_the_corner_is_a_fraction_of_the_progress_and_only_joint_values_jump():
         [0.4, 0.6], abs=2e-3
     )
     _, options, _ = asked("puma560_branches.p8")
-    (least,) = numbers(r"Whole turns aside, a fixed row .* stays above (\d+)°", options[3].second)
+    (least,) = numbers(
+        r"Apart from whole turns, a fixed row .* stays above (\d+)°", options[3].second
+    )
     row = PUMA560.ik(path)[:, 0]
     assert least < abs(row[:, 4]).min() / deg < least + 1
     steps = np.diff(row, axis=0)
@@ -358,7 +360,7 @@ def test_speeds_very_near_wrist_and_shoulder_singularities_are_as_stated():
         q = np.unwrap(PUMA560.ik(Transform(aligned.rotation, place))[:, 3], axis=0) / deg
         assert np.ptp(q, axis=0)[[3, 5]] == pytest.approx(180, abs=2)
     assert r"Joint 1 turns at $v\,d_3/(\rho\,r)$, with $\rho = d_3 + m$" in text
-    assert "when $m$ is small beside $d_3$" in text
+    assert "when $m$ is small compared with $d_3$" in text
     d3, h = 150.05 * mm, 1e-7
     for m in (100 * mm, 10 * mm, 1 * mm):  # speeds by finite differences of joint 1
         place = np.array([[d3 + m + x, 0, 1.2] for x in (-h, h)])

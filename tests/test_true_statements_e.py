@@ -346,7 +346,7 @@ def test_phi_loses_digits_as_stated():
 
 def test_unwrapping_matters_only_for_joint_6():
     words = flat("07", "choose-rule")
-    told = "at every sample, it can go wrong for joint 6 alone, with its range of 532°."
+    told = "This matters only for joint 6, with its range of 532°."
     assert told in words
     low, high = PUMA560.limits.T
     assert ((high - low) / deg > 360).tolist() == [False] * 5 + [True]
@@ -365,7 +365,9 @@ def test_unwrapping_matters_only_for_joint_6():
 
 def test_rows_4_to_6_end_with_a_joint_beyond_its_limit():
     words = flat("07", "choose-look")
-    assert "rows 3 to 6 are usable at the start *and* at the goal, and pass a limit in" in words
+    assert (
+        "rows 3 to 6 are usable at the start *and* at the goal, but they pass a limit in" in words
+    )
     told = flat("07", "deeper-nearest-look")
     assert "Rows 4 to 6 of that line end with a joint wound past its limit" in told
     made = run_cells("07", "choose-player")
@@ -383,7 +385,7 @@ def test_rows_4_to_6_end_with_a_joint_beyond_its_limit():
 
 
 def test_longer_moves_to_rows_5_and_7_avoid_the_limit_of_joint_2():
-    assert "In rows 5 and 7 the best move is longer than the one to the values" in flat(
+    assert "In rows 5 and 7, the best move is longer than the move to the values" in flat(
         "07", "deeper-ptp-look"
     )
     made = run_cells("07", "deeper-ptp")
@@ -425,7 +427,9 @@ def test_statements_on_the_worst_case_and_the_ellipsoid_are_true():
     sigma = float(LINE["near"](q))
     assert np.linalg.norm(J @ left) == pytest.approx(sigma)
     assert (np.linalg.norm(J @ np.random.default_rng(1).normal(size=(6, 50)), axis=0) > sigma).any()
-    assert "the ellipsoid goes flat, to 1 mm/s." in flat("07", "near-look")
+    assert "the ellipsoid becomes flat, and its shortest semi-axis falls to 1 mm/s." in flat(
+        "07", "near-look"
+    )
     steps = 1e-6 * np.eye(6)
     q = np.array([0, 60, -87, 0, 0, 0]) * deg
     A = (PUMA560.fk(q + steps).translation - PUMA560.fk(q - steps).translation).T / 2e-6
@@ -434,7 +438,7 @@ def test_statements_on_the_worst_case_and_the_ellipsoid_are_true():
 
 def test_elbow_line_ends_at_the_stated_distance_from_full_stretch():
     told = flat("07", "cross-jacobian")
-    assert "*elbow* goes outwards and ends $m$ before full stretch" in told
+    assert "*elbow* goes outwards and stops $m$ short of full stretch" in told
     made = run_cells("07", "cross-player", "cross-cost")
     _, pose, away, along = made["LINES"]["elbow"]
     assert along.tolist() == [1, 0, 0] and away.tolist() == [-1, 0, 0]
@@ -443,13 +447,13 @@ def test_elbow_line_ends_at_the_stated_distance_from_full_stretch():
         assert np.sqrt(out @ out - 150.05**2) == pytest.approx(431.8 + np.hypot(431.8, 20.3))
     for m in (100 * mm, 10 * mm):
         assert LINE["stretched"](m).translation == pytest.approx(pose.translation + m * away)
-    assert "We take many poses in reach" in flat("07", "count")
+    assert "We take many poses that the arm can reach" in flat("07", "count")
 
 
 def test_arm_is_stretched_and_forearm_points_up_where_stated():
     assert "atan2}(d_4, a_3) = -87.3°$" in flat("07", "triangle-formula")
     words = written("puma560_branches")
-    assert "At q2 = q3 = 0 the forearm points up" in words
+    assert "At q2 = q3 = 0, the forearm points up" in words
     for q3 in (-87.3, -90, 0):
         places = PUMA560.frames(np.array([0, 0, q3, 0, 0, 0]) * deg).translation
         shoulder, elbow, wrist = places[[1, 2, 4]] + np.array([[0], [0], [0.15005]]) * [0, 1, 0]
@@ -463,7 +467,7 @@ def test_arm_is_stretched_and_forearm_points_up_where_stated():
 
 def test_rows_0_and_2_of_the_first_view_share_only_joint_1():
     text = flat("07", "eight")
-    assert "same value in rows 0 and 2?" in text and "Joint 1. The elbow moves" in text
+    assert "same value in rows 0 and 2?" in text and "It is joint 1. The elbow moves" in text
     level = Quaternion.from_angle_axis(90 * deg, [0, 1, 0])
     rows = PUMA560.ik(Transform(level, np.array([550, 0, 800]) * mm))
     off = abs(np.exp(1j * rows[0]) - np.exp(1j * rows[2]))
@@ -497,7 +501,7 @@ def test_front_row_exceeds_the_limit_of_joint_1_for_far_poses_straight_behind():
 
 def test_most_short_lines_keep_their_row():
     _, options, _ = asked("puma560_branches.p7")
-    assert any(o.reason.startswith("On most short lines a row that is usable") for o in options)
+    assert any(o.reason.startswith("On most short lines, a row that is usable") for o in options)
     rng = np.random.default_rng(9)
     ends = LINE["random_poses"](rng, (300,))
     way = rng.normal(size=(300, 3))
@@ -523,7 +527,7 @@ def test_motion_starts_gently_and_the_slider_sets_the_mean_speed():
     u = np.linspace(0, 1, 20001)
     law = 10 * u**3 - 15 * u**4 + 6 * u**5
     assert np.diff(law).max() * 20000 == pytest.approx(15 / 8, abs=1e-6)
-    assert "Choose a mean speed of joint 1 with the slider" in flat("08", "time-take")
+    assert "Choose a mean speed of joint 1, press play" in flat("08", "time-take")
     (most,) = numbers(
         r"greatest speed of \d+ samples (\S+) °/s \(joint 1\)", shown("08", "time-player")
     )
@@ -560,7 +564,7 @@ def test_other_elbow_exceeds_its_limit_except_at_the_workspace_boundary():
 
 
 def test_at_most_ten_reasons_of_one_kind_are_listed():
-    assert "names what is wrong, with at most ten reasons of one kind" in flat(
+    assert "says what is wrong, with at most ten reasons of each kind" in flat(
         "08", "deeper-command"
     )
     far = [[20 + k, 0, 0] for k in range(15)]
@@ -671,7 +675,7 @@ def test_answers_to_the_questions_about_the_views_of_lab_10_are_true():
     path = through((1, 1.3), (1, 1.2))
     assert gripper_distance(path, H) / mm == pytest.approx(far, abs=0.06)
     assert far * mm > DISTANCE > least_distance(path, H) + 0.1
-    pair, kept = said_pair("able", r"K2 = (.*?) m and K3 = (.*?) m, .*clearance.* is (\S+) mm")
+    pair, kept = said_pair("able", r"K2 = (.*?) m and K3 = (.*?) m\. .*clearance.* is (\S+) mm")
     assert least_distance(through(*pair), H) / mm == pytest.approx(kept, abs=0.06)
     H = np.array([1.5, 1.0])
     text = r"AK comes as near as (\S+) mm before the gripper reaches K2, and (\S+) mm after K3"
@@ -681,7 +685,7 @@ def test_answers_to_the_questions_about_the_views_of_lab_10_are_true():
     assert [found[0], found[2]] == pytest.approx(near, abs=0.06) and max(near) * mm < DISTANCE
     on_AK = [lever_distance(q, H, slice(2, 3)) for q in rule]
     assert on_AK == pytest.approx([lever_distance(q, H) for q in rule])
-    pair, kept = said_pair("via-rule", r"K2 = (.*?) m and K3 = (.*?) m, .* clearance is (\S+) mm")
+    pair, kept = said_pair("via-rule", r"K2 = (.*?) m and K3 = (.*?) m, the clearance is (\S+) mm")
     assert least_distance(through(*pair), H) / mm == pytest.approx(kept, abs=0.06)
     assert kept * mm > DISTANCE
 
@@ -716,8 +720,8 @@ def test_swept_place_and_the_minimum_between_samples_are_as_stated():
 def test_planning_method_changes_at_the_stated_places():
     text = flat("10", "cube-text")
     told = numbers(
-        r"Down to (\S+) m the direct motion is clear\. From (\S+) to (\S+) m via points are "
-        r"enough\. From (\S+) to (\S+) m a search",
+        r"Down to (\S+) m, the direct motion is clear\. From (\S+) to (\S+) m, via points are "
+        r"enough\. From (\S+) to (\S+) m, a search",
         text,
     )
     ways = {}
@@ -733,7 +737,8 @@ def test_planning_method_changes_at_the_stated_places():
 
 
 def test_sampled_tasks_and_the_larger_circle_keep_the_distance_as_stated():
-    assert "all levers at the start and the gripper at the target keep" in flat("10", "often")
+    words = "all levers keep the distance at the start, and the gripper keeps it at the target"
+    assert words in flat("10", "often")
     near_at_target = 0
     for start, target, H in sampled_tasks():
         end = direct(start, target)[1]
@@ -749,10 +754,10 @@ def test_sampled_tasks_and_the_larger_circle_keep_the_distance_as_stated():
 
 def test_plan_tries_more_circles_than_control():
     words = flat("10", "deeper-two")
-    assert "as `control` does, but with more circles, and it begins with the via" in words
+    assert "like `control`, but with more circles, and it begins with the via" in words
     assert "for r in (distance, 0.16, 0.20, 0.25)" in cells("10")["control-code"]
     assert "r = 180 mm" in shown("10", "deeper-two-code")
-    assert "six places of the obstacle, side by side." in flat("10", "deeper-moving")
+    assert "six positions of the obstacle, side by side." in flat("10", "deeper-moving")
     assert "*Play* shows a coarse search." in flat("10", "cube")
 
 

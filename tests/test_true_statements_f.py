@@ -479,11 +479,11 @@ def test_the_sampled_lines_do_not_show_which_rule_is_better():
     question, options, right = asked("puma560_branches.p7")
     reason = one_line(options[right].reason)
     (said,) = numbers(r"^About (\d+) %\.$", options[right].text)
-    (lines,) = numbers(r"^Take (\d+) random straight lines, on which all eight rows", question)
+    (lines,) = numbers(r"^Take (\d+) random straight lines on which all eight rows", question)
     one, other = numbers(r"fail on (\d+) and (\d+) % of them\.", reason)[:1] + numbers(
         r"^It cannot finish (\d+) % of these", reason
     )
-    (scatter,) = numbers(r"such a fraction scatters by (\d+) points \(standard deviation\)", reason)
+    (scatter,) = numbers(r"slightly different \(standard deviation: (\d+) %\)", reason)
     assert scatter == round(100 * np.sqrt(0.42 * 0.58 / lines))
     assert "these lines do not tell you which of the first two rules is better." in reason
     assert "the orientation over all rotations" in view("puma560_branches.p7")
@@ -569,7 +569,7 @@ def test_player_shows_the_greatest_joint_speed_on_the_line():
 
 def test_flange_moves_nearly_in_the_arms_plane_at_the_nearest_point():
     reason = one_line(option("puma560_branches.p6", "as towards the axis").reason)
-    told = r"it moves on the tangent nearly in the arm's own plane: (\S+)° away from it"
+    told = r"the tangent lies nearly in the arm's own plane, at (\S+)° to it"
     (said,) = numbers(told, reason)
     pose = Transform(translation=np.array([151.05, 0, 1200]) * mm)
     q = PUMA560.ik(pose)[2]

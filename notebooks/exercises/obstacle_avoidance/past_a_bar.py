@@ -152,7 +152,7 @@ def faults(path: Floats, given: Mapping[str, Any]) -> list[tuple[str, str]]:
         stands, got = apart(start / deg, path[0] / deg)
         says = f"The path begins at ({got})°, but the arm stands at ({stands})°."
         if abs(path[-1] - start).max() <= 1e-4:
-            says += " There the path ends."
+            says += " That is where the path ends."
         elif abs(path[0, ::-1] - start).max() <= 1e-4:
             says += " These are its angles in the order alpha, beta, gamma."
         found.append(("another start", says))
