@@ -549,11 +549,11 @@ def test_areas_outside_the_quadrilateral_are_as_stated():
     assert np.array(own) * cell == pytest.approx([out, area, false], abs=0.0065)
 
 
-def test_seven_samples_miss_the_minimum():
+def test_six_samples_miss_the_minimum():
     question, options, right = asked("obstacle_avoidance.p4")
-    path, H = direct(np.array([150, 120, 120]) * deg), np.array([1.7, 1.0])
-    assert "(1.7, 1) m" in question and "from (150°, 120°, 120°) to K1" in question
-    seen = lever_distance(path[0] + np.linspace(0, 1, 7)[:, None] * (path[1] - path[0]), H).min()
+    path, H = direct(np.array([150, 120, 120]) * deg), np.array([1.65, 1.1])
+    assert "(1.65, 1.1) m" in question and "from (150°, 120°, 120°) to K1" in question
+    seen = lever_distance(path[0] + np.linspace(0, 1, 6)[:, None] * (path[1] - path[0]), H).min()
     true = least_distance(path, H)
     assert f"at least {seen / mm:.0f} mm" in question
     assert options[right].reason.startswith(

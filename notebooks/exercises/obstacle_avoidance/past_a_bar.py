@@ -193,7 +193,7 @@ def too_near(path: Floats, places: Floats, name: str, distance: float) -> list[t
     gripper = float(np.hypot(*(points[:, None] - places).T).min())
     corners = min(float(distances(path, place).min()) for place in places)
     says = (
-        f"Between postures {part + 1} and {part + 2} lever {('OB', 'BA', 'AK')[lever]} comes as "
+        f"Between path[{part}] and path[{part + 1}], lever {('OB', 'BA', 'AK')[lever]} comes as "
         f"near as {near} mm to {name}; the task asks for {wanted} mm."
     )
     if corners >= distance:
