@@ -69,7 +69,7 @@ def test_the_15_degree_grid_has_a_path_that_the_wavefront_search_does_not_find()
     assert least_distance([Q0, *(way * deg), last], H) >= DISTANCE
     assert abs(last - way[-1] * deg).max() < 15 * deg, "wanted less than a step of the grid"
     words = flat("10", "check-3-look")
-    assert "to a posture of the curve from the grid posture nearest to it" in words
+    assert "to a posture on the curve from the grid posture that is nearest to it" in words
 
 
 def test_adding_samples_never_increases_the_least_distance_found():

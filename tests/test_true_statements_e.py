@@ -747,7 +747,7 @@ def test_sampled_tasks_and_the_larger_circle_keep_the_distance_as_stated():
     assert near_at_target > 0
     _, options, _ = asked("obstacle_avoidance.p7")
     (kept, all_, near) = numbers(
-        r"(\d+) of (\d+)\. In (\d+) a lever still comes", options[2].reason
+        r"It is (\d+) of (\d+)\. In (\d+), a lever still comes", options[2].reason
     )
     assert kept + near == all_
 
@@ -780,7 +780,7 @@ def test_motors_reverse_in_the_last_third_of_the_straight_line():
 def test_answers_to_the_drag_tasks_of_lab_11_are_true():
     """The tasks are about path b, the limits of reach, the drift of the cycle and half steps."""
     start, loader = np.array([600, -350, 50]) * mm, loader_arm(0.45, 0.30)
-    goal = numbers(r"example \((\S+), (\S+), (\S+)\) mm: this line", flat("11", "able"))
+    goal = numbers(r"For \((\S+), (\S+), (\S+)\) mm, for example: this line", flat("11", "able"))
     share = np.linspace(0, 1, 2001)[:, None]
     line = start + share * (np.array(goal) * mm - start)
     turns = np.diff(station_postures(loader, line), axis=0)
@@ -811,9 +811,8 @@ def test_long_turns_and_lost_steps_are_as_stated():
     setup = cells("11")["turn-setup"]
     assert f"directions, began = np.array({directions.tolist()}), {stands}" in setup
     *long, last = directions[abs(directions - stands) > 180]
-    said = (
-        f"At {', '.join(f'{x}°' for x in long)} and {last}° the plain difference takes the long way"
-    )
+    degrees = ", ".join(f"{x}°" for x in long)
+    said = f"At {degrees} and {last}°, the plain difference takes the long way"
     assert said.replace("-", "\N{MINUS SIGN}") in flat("11", "turn-answer")
     for each in directions:  # the rest of the turn, always with the same sign
         turn = each - stands if abs(each - stands) <= 180 else abs(each - stands) - 360
@@ -829,7 +828,7 @@ def test_long_turns_and_lost_steps_are_as_stated():
 def test_generated_c_has_only_doubles_and_both_texts_describe_the_rims_alike():
     assert "every variable in it is a double" in flat("12", "c-generate")
     assert "2*t3" in shown("12", "c-generate") and "int " not in shown("12", "c-generate")
-    anything = "earer than a millimetre to a rim, and with the tip on the base,"
+    anything = "ess than a millimetre from a rim, and with the tip on the base,"
     assert anything in flat("12", "your-turn-3") and anything in written("two_link_code_generation")
 
 

@@ -189,9 +189,7 @@ def test_point_3_comes_first_once_it_is_nearer_than_point_0():
 
 
 def test_path_over_the_axis_costs_the_whole_move_to_it():
-    assert "The stop adds the whole move from point 0 to the axis" in flat(
-        "08", "time-axis-cost"
-    )
+    assert "The stop adds the whole move from point 0 to the axis" in flat("08", "time-axis-cost")
     places = [[-2, 0.01, 4], [-2, 0.5, 4], [0, 0, 6.5], [2, -0.01, 4]]
     assert f"over = {places[1:]}  # m" in cells("08")["time-axis-explorer"]
     assert f"p0={places[0]}" in cells("08")["time-axis-explorer"]
@@ -421,7 +419,7 @@ def arms_needed(v, spread, seed):
 
 def test_belt_table_shows_one_stream_and_other_streams_need_one_more_arm():
     words = flat("14", "belt-look")
-    assert "at all six speeds. At spread 0.5 it is one arm too few at three of them, at" in words
+    assert "at all six speeds. At spread 0.5, it is one arm too few at three of them, and" in words
     assert "at spread 1 at five. All this is for one order of the gaps, `seed=8`." in words
     assert (
         "With each of the next four orders, 9 to 12, spread 1 needs a fourth arm at 200 mm/s and "
@@ -465,7 +463,7 @@ def test_belt_player_shows_the_streams_of_the_table(monkeypatch):
 
 
 def test_fourth_arm_has_work_only_when_the_objects_lie_unevenly(monkeypatch):
-    assert "**watch** arm 4: at 0 it stands still, at 0.5 and 1 it has work" in flat(
+    assert "**watch** arm 4: at 0 it does not move, at 0.5 and 1 it does" in flat(
         "14", "belt-uneven"
     )
     cell = cells("14")["belt-player"]
