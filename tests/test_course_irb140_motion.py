@@ -85,8 +85,8 @@ def test_blend_in_the_task_matches_that_of_the_document():
     wanted = exercise.right(0.05, "parabola")
     assert _gap(wanted, "parabola") == pytest.approx(50 * mm)
     assert exercise.code["law"]((0.05, "parabola"), 0.06, wanted) == (
-        "should be 0.06652: in the middle of the parabola the tool is then 50.0 mm from via; with "
-        "0.06 it is 45.1 mm"
+        "should be 0.06652, so that the tool is 50.0 mm from via in the middle of the parabola; "
+        "with 0.06, it is 45.1 mm from via"
     )
 
 

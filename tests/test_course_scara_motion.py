@@ -253,7 +253,10 @@ def test_message_about_a_case_states_degrees_and_the_side_of_the_elbow():
         (_degrees_without_limits, "degrees for radians"),
         (_nearest_row, "the nearer posture, elbow changed"),
         (_zero_is_negative, "joint 2 at 0 is treated as negative"),
-        (_zero_is_negative_and_ik_as_it_is, "joint 2 at 0 is treated as negative, and the row of ik"),
+        (
+            _zero_is_negative_and_ik_as_it_is,
+            "joint 2 at 0 is treated as negative, and the row of ik",
+        ),
         (_stroke_in_both_angles, "joint 4 is added to both angles"),
         (_joint, "joint 3"),
         (_three_turns, "joint 3"),
@@ -497,7 +500,7 @@ def test_mistakes_in_the_design_are_named():
 
 def test_answers_to_predictions_agree_with_other_calculations():
     right = {name: filled(p)[1][filled(p)[2]].text for name, p in LAB.predictions.items()}
-    assert right["p1"] == "Joint 3 alone: the others only set the place."
+    assert right["p1"] == "Joint 3 alone: the others only set the position."
     assert right["p2"] == "Joint 4 alone: the tool rises or sinks evenly."
     assert right["p3"] == "x and y."
     assert right["p4"] == "In LIN alone: the line decides what the joints do."

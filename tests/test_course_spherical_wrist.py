@@ -275,7 +275,7 @@ def test_test_may_refuse_a_program_with_an_assertion():
 def test_missing_test_of_a_product_of_matrices_is_reported():
     verdict = check("spherical_wrist.2", _by_assertion(lambda h: (h,)))
     assert verdict.mistake == "accepts: a better root alone"
-    assert any("matrices of a chain" in line for line in verdict.says)
+    assert any("matrices from a chain" in line for line in verdict.says)
 
 
 # --- Exercise 3: an individual line ---------------------------------------------------------------

@@ -142,7 +142,7 @@ def test_check_accepts_what_hint_2_approves_and_reports_jumps():
     assert approved and refused
     for says in refused:
         if "is past its limit" in says:
-            assert "Each sample alone has a value inside" in says and "At both ends" not in says
+            assert "Each single sample has a value inside" in says and "At both ends" not in says
 
 
 def test_wrapped_angle_spoils_two_central_differences_and_one_forward_difference():

@@ -25,7 +25,7 @@ def ends(limits: Floats, lengths: Any) -> Floats:
 
 
 def cases(rng: np.random.Generator) -> list[Case]:
-    """Motions that reach or exceed limits or have NaN, in the first, a middle or the last sample."""
+    """Motions that reach or exceed limits, or have NaN, at the start, in the middle or at the end."""
     found = []
     for sheet in SHEETS:
         limits, lengths, still = (np.array(x) for x in sheet)
@@ -92,9 +92,7 @@ def law(case: Case, yours: bool, wanted: bool) -> str | None:
         return None
     low, high = ends(limits, lengths)
     if wanted:
-        says = (
-            "every value of this motion is inside or at its limits, so the answer is True"
-        )
+        says = "every value of this motion is inside or at its limits, so the answer is True"
         sample, joint = divmod(int(np.argmin(np.minimum(q - low, high - q))), 4)
         value = float(q[sample, joint])
         limit = float(min(low[joint], high[joint], key=lambda x: abs(x - value)))
@@ -103,8 +101,8 @@ def law(case: Case, yours: bool, wanted: bool) -> str | None:
         if value == limit:
             return f"{says}; in sample {sample}, joint {joint + 1} is at its limit"
         si = "m" if lengths[joint] else "rad"
-        at = f"in sample {sample}, joint {joint + 1} is at {value:.7f} {si}, its limit is {limit:.7f}"
-        return f"{says}; {at} {si}".translate(MINUS)
+        at = f"in sample {sample}, joint {joint + 1} is at {value:.7f} {si}"
+        return f"{says}; {at}, its limit is {limit:.7f} {si}".translate(MINUS)
     sample, joint = divmod(int(np.argmax(~((q >= low) & (q <= high)))), 4)
     where = f"sample {sample} of {len(q)} (counted from 0)"
     if np.isnan(q[sample, joint]):
