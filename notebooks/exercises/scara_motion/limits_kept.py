@@ -25,7 +25,7 @@ def ends(limits: Floats, lengths: Any) -> Floats:
 
 
 def cases(rng: np.random.Generator) -> list[Case]:
-    """Motions that reach or exceed limits, or have NaN, at the start, in the middle or at the end."""
+    """Motions that reach or exceed limits, or have NaN, at the start, in the middle, at the end."""
     found = []
     for sheet in SHEETS:
         limits, lengths, still = (np.array(x) for x in sheet)
