@@ -400,7 +400,7 @@ def test_answers_to_predictions_agree_with_other_methods():
     question = " ".join(filled(LAB.predictions["p2"])[0].split())
     told = f"Less than {line:.2f} s, but no less than PTP: the joints have to turn as far."
     assert _right("p2") == told and least < 0.6 * line
-    assert f"took {line:.2f} s; PTP took {least:.2f} s" in question
+    assert f"took {line:.2f} s; in PTP, it took {least:.2f} s" in question
 
     q0, q1 = np.zeros(6), np.zeros(6)
     q0[5], q1[5] = 350 * deg, 60 * deg
