@@ -69,13 +69,15 @@ def apart(R, S):
 
 
 def test_every_lab_marks_values_to_change_with_a_try_comment():
-    assert "**Look at** tells you where to look, and `# try` what to change" in flat("00", "how")
+    assert "**Look at** tells you where to look, and `# try` tells you what to change" in flat(
+        "00", "how"
+    )
     for lab in range(15):
         assert any("# try" in text for text in cells(f"{lab:02}").values()), lab
 
 
 def test_angles_can_be_interpolated_if_only_one_of_them_changes():
-    says = "If only one of them changes, by less than half a turn, that is right."
+    says = "That is right if just one of the three angles changes, by less than half a turn"
     assert says in written("frames_and_quaternions")
     rng = np.random.default_rng(1)
 
@@ -101,10 +103,8 @@ def test_angles_can_be_interpolated_if_only_one_of_them_changes():
 
 
 def test_statements_on_scalar_parts_speed_jumps_and_parallel_axes_are_true():
-    told = (
-        "At φ = 90°. Otherwise $q\\,v$ is shorter along the axis, and the rest is in the real part."
-    )
-    assert told in flat("01", "turning-why")
+    told = "At φ = 90°. Otherwise, $q\\,v$ is shorter along the axis, and the rest is in the real"
+    assert f"{told} part." in flat("01", "turning-why")
     u, q = np.array([1, 2, 2]) / 3, 0.4
     for point in ([2.0, -1, 0], [0.3, 1, 2]):
         length = np.linalg.norm(point)
@@ -112,7 +112,7 @@ def test_statements_on_scalar_parts_speed_jumps_and_parallel_axes_are_true():
         real, *vector = (Quaternion([np.cos(q), *(np.sin(q) * u)]) @ way).wxyz * length
         assert (abs(real) < 1e-12) == (abs(u @ point) < 1e-12)
         assert real**2 + (u @ vector) ** 2 == pytest.approx((u @ point) ** 2)
-    assert "Every speed except joint 4's jumps" in flat("01", "line-look")
+    assert "Every speed except that of joint 4 jumps" in flat("01", "line-look")
     assert "q4 0%" in shown("01", "line-code") and "q5 0%" not in shown("01", "line-code")
     _, options, _ = asked("frames_and_quaternions.p4")
     assert any("The IRB-140's shoulder and elbow axes are parallel" in o.second for o in options)
@@ -144,10 +144,10 @@ def hamilton(a, b):
 def test_each_step_of_the_derivation_of_rodrigues_formula_is_true():
     words = flat("01", "turning-why")
     rng = np.random.default_rng(6)
-    assert r"$q\,v_\perp = c\,v_\perp + s\,n \times v_\perp$: no real part" in words
+    assert r"$q\,v_\perp = c\,v_\perp + s\,n \times v_\perp$. This has no real part" in words
     assert r"$v_\perp n = -n\,v_\perp$, we have $v_\perp q^* = q\,v_\perp$" in words
     assert r"$q\,v_\parallel = c\,v_\parallel - s\,(n \cdot v)$ has a real part" in words
-    assert "1. By θ/2." in words and "3. At 720°. At 360° $q$ is −1." in words
+    assert "1. By θ/2." in words and "3. At 720°. At 360°, $q$ is −1." in words
     for theta in [*rng.uniform(0, 4 * np.pi, 20), 2 * np.pi, 4 * np.pi]:
         n, v = rng.normal(size=(2, 3))
         n /= np.linalg.norm(n)
@@ -166,7 +166,7 @@ def test_each_step_of_the_derivation_of_rodrigues_formula_is_true():
 
 
 def test_the_pointers_agree_three_times_and_nlerp_is_faster_in_the_middle():
-    says = "They agree at the start, halfway and at the end. In the middle *nlerp* is faster;"
+    says = "They agree at the start, halfway and at the end. In the middle, *nlerp* is faster;"
     assert says in flat("01", "slerp-look")
     s = np.linspace(0, 1, 121)
     for goal in (60, 90, 110, 140, 170):
@@ -184,7 +184,9 @@ def test_the_pointers_agree_three_times_and_nlerp_is_faster_in_the_middle():
 def test_moving_the_tip_along_base_x_is_right_only_if_the_tool_points_that_way():
     says = "along the base's x axis. That is right only while the tool points along this axis."
     assert says in written("irb140_kinematics")
-    assert flat("02", "short").count("Every angle except joint 3's comes from atan2.") == 1
+    assert (
+        flat("02", "short").count("We compute every angle except that of joint 3 with atan2.") == 1
+    )
     for q, right in (([0, 30, 30, 0, 0, 25], True), ([0] * 6, True), ([0, 30, 0, 0, 0, 0], False)):
         q = np.array(q) * deg
         flange = IRB140.fk(q)
@@ -210,7 +212,9 @@ def test_one_shoulder_reaches_poses_that_the_other_does_not():
 def test_shorter_intervals_do_not_show_smaller_changes():
     _, options, _ = asked("irb140_motion.p5")
     reason = " ".join(options[0].reason.split())
-    assert reason.endswith("to the next, and by just as much when the intervals are shorter.")
+    assert reason.endswith(
+        "to the next, and it changes by the same amount if the intervals are shorter."
+    )
     (said,) = numbers(r"changes by (\S+) rad/s", reason)
     rows = [
         line.split() for line in shown("03", "diff-halve").splitlines() if "speed jumps" in line
@@ -222,8 +226,8 @@ def test_shorter_intervals_do_not_show_smaller_changes():
     made = book.find("irb140_motion.p5", "predictions").facts()
     assert made["change"] == pytest.approx(changes[1], abs=1e-5)
     assert "A number that doubles is a jump divided by the step" in flat("03", "short")
-    told = "At the same blend the quintic gives the tool 1.5 times the parabola's greatest"
-    assert told in written("irb140_motion")
+    told = "the greatest acceleration of the tool in the quintic corner is 1.5 times that in the"
+    assert f"At the same blend, {told} parabola." in written("irb140_motion")
     # x is the parameter of the corner; the control points are fractions of the path to via
     x = np.linspace(0, 1, 1001)
     peaks = []
@@ -238,7 +242,7 @@ def test_shorter_intervals_do_not_show_smaller_changes():
 
 
 def test_only_the_arms_length_limits_the_reach_in_front():
-    words = "In front, only the length of the arm stops the tool on its way outwards."
+    words = "In front, only the length of the arm limits the tool's reach."
     assert words in flat("04", "zone-how")
     low, high = SCARA.limits[:2].T
     l1, l2 = 0.2, 0.25
@@ -269,7 +273,8 @@ def test_first_lever_turns_by_the_stated_angle_if_the_second_is_short():
 
 def test_least_tool_speed_for_unit_joint_speeds_is_the_smaller_singular_value():
     words = flat("04", "deeper-jacobian")
-    assert "= 1$ rad²/s², what is the lowest speed of the tool? It is the smallest" in words
+    assert "= 1$ rad²/s², which one moves the tool most slowly" in words
+    assert "how fast is the tool then? Its speed is the smallest" in words
     q = np.array([0.3, 0.5])
     J = 1e3 * np.array(
         [
@@ -298,7 +303,7 @@ def test_quintic_corner_has_a_higher_peak_acceleration():
 
 def test_paths_need_only_a_lerp_method():
     words = flat("05", "short")
-    assert "LIN and the blend need only the `lerp` of a pose" in words
+    assert "LIN and the blend use nothing but the `lerp` of a pose" in words
 
     class Place:
         def __init__(self, x):
@@ -317,7 +322,7 @@ def test_paths_need_only_a_lerp_method():
 def test_two_of_the_four_row_pairs_coincide_at_the_singular_pose():
     words = flat("06", "drag-target-look")
     assert "There are four such pairs." in words
-    told = "two of these pairs become single postures: rows 2 and 3 are the same, and so are rows"
+    told = "the two postures of a pair can coincide: rows 2 and 3 are the same, and so are rows"
     assert f"{told} 4 and 5." in words
     pose = Transform(Quaternion.from_roll_pitch_yaw(0, np.pi / 2, 0), np.array([400, 0, 200]) * mm)
     q = ITMO6R.ik(pose)
@@ -326,7 +331,7 @@ def test_two_of_the_four_row_pairs_coincide_at_the_singular_pose():
 
 
 def test_phi_loses_digits_as_stated():
-    assert "rounding leaves few digits of $\\phi$" in flat("06", "root-look")
+    assert "rounding leaves few correct digits of $\\phi$" in flat("06", "root-look")
     rng, worst = np.random.default_rng(6), {}
     for theta in (1e-9, 5e-14):
         off = []
