@@ -96,7 +96,7 @@ def test_known_mistakes_and_nearly_correct_programs_are_named():
     assert judged(px="a*dx", py="a*dy").mistake == "the base not added at the end"
     near = judged(a=f"0.5 + {K + 1e-4} / d2")
     assert near.mistake == "nearly right" and "the task asks for a micrometre" in near.says[0]
-    at = r"elbow is at \((.*?)\); your program says \((.*?)\)"
+    at = r"elbow is at \((.*?)\); your program returns \((.*?)\)"
     right, yours = re.search(at, near.says[0]).groups()
     assert right != yours
     assert judged(a=f"5 + {K} / d2").mistake == "NaN"

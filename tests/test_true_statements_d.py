@@ -297,8 +297,8 @@ def test_jumps_in_the_first_views_are_as_stated():
     assert sorted(near) == [low, height] == [-height, height]
     assert round(2 * np.sqrt(1 - height**2 / 4), 3) == jump
     told = flat("12", "elimination-text")
-    low, high = numbers(r"heights between (\S+) m and (\S+) m,", told)
-    assert "link_2 = 0.7 " in cells("12")["elimination-view"]
+    low, high, far = numbers(r"heights between (\S+) m and (\S+) m or beyond ±(\S+) m,", told)
+    assert "link_2 = 0.7 " in cells("12")["elimination-view"] and far == pytest.approx(1 + 0.7)
     assert [low, high] == pytest.approx([-0.3, 0.3]) and high == pytest.approx(1 - 0.7)
     rng = np.random.default_rng(5)
     for x, y in rng.uniform(-1.6, 1.6, (400, 2)):
