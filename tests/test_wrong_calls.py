@@ -296,6 +296,11 @@ CALLS = {
         "high",
         "decimals",
     ),
+    "shortest_duration": (
+        motion.shortest_duration,
+        dict(arm=IRB140, path=lambda s: ptp(SIX, SIX + 0.1, s), law=quintic),
+        "arm",
+    ),
     "Maximum": (motion.Maximum, dict(value=1.0, at=0.0)),
     "record": (motion.record, dict(arm=IRB140, t=TIMES, q=MOTION)),
     "Recording": (motion.Recording, _fields(RECORDING)),
