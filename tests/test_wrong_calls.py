@@ -578,7 +578,7 @@ CALLS = {
     "redundancy.pseudo_inverse": (redundancy.pseudo_inverse, TASK_OF_LEVERS),
     "redundancy.gradient_projection": (redundancy.gradient_projection, TASK_OF_LEVERS),
     "redundancy.equal_angles": (redundancy.equal_angles, TASK_OF_LEVERS),
-    "redundancy.random_choice": (redundancy.random_choice, dict(seed=1)),
+    "redundancy.random_choice": (redundancy.random_choice, dict(seed=1, obstacle=OBSTACLE)),
     "redundancy.distance_rule": (redundancy.distance_rule, dict(obstacle=OBSTACLE)),
     "redundancy.RaceResult": (
         redundancy.RaceResult,
