@@ -244,7 +244,8 @@ def _compared(task: Task, result: Result) -> list[str]:
     """The times of all moves that were compared, one line for each stop, for the log. There are no
     more lines once POINTS_SHOWN moves are listed.
     """
-    lines, count = [], 0
+    lines: list[str] = []
+    count = 0
     for name, left, times in candidates(task, result):
         if count >= POINTS_SHOWN:
             return [*lines, "the times of later moves are not listed"]

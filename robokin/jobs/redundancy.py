@@ -167,8 +167,9 @@ def random_choice(seed: int, obstacle: ArrayLike | None = None) -> Method:
         alphas = low + (high - low) * dice.random((TRIES, *low.shape))
         rows = arm.family(target, alphas)
         stay = np.isnan(rows)  # in place of a posture that does not exist
-        safe = keeps(arm, previous, np.where(stay, previous, rows), H, arm.lever / 7)
-        first = (safe & ~stay.any(axis=-1)).argmax(axis=0)
+        kept = keeps(arm, previous, np.where(stay, previous, rows), H, arm.lever / 7)
+        safe = np.logical_and(kept, ~stay.any(axis=-1))
+        first = safe.argmax(axis=0)
         row = np.take_along_axis(rows, first[None, ..., None], axis=0)[0]
         return np.where(safe.any(axis=0)[..., None], row, np.nan)
 
