@@ -147,7 +147,7 @@ def test_companion_003_explains_every_term_of_the_documents_own_list():
     text = prose(COMPANIONS["003"]).split("\n## Its terms\n")[1].split("\n## ")[0]
     named = [line.split("|")[1].lower() for line in text.splitlines() if line.startswith("| ")]
     terms = """ai, atvirkštinė kinematika, autonominis, c++, db, dof, is, if/then, išmanioji
-        sistema, jutiklis, manipuliatorius, matlab, operatorius, plv, pagalbinė sistema, realaus laiko
-        sistema, tiesioginė kinematika, tis, valdiklis, žingsninis variklis"""
+        sistema, jutiklis, manipuliatorius, matlab, operatorius, plv, pagalbinė sistema,
+        realaus laiko sistema, tiesioginė kinematika, tis, valdiklis, žingsninis variklis"""
     for term in map(str.strip, re.sub(r"\s+", " ", terms).split(",")):
         assert any(re.search(rf"(?<!\w){re.escape(term)}(?!\w)", name) for name in named), term
