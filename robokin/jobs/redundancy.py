@@ -170,8 +170,9 @@ def random_choice(seed: int, obstacle: ArrayLike | None = None) -> Method:
         kept = keeps(arm, previous, np.where(stay, previous, rows), H, arm.lever / 7)
         safe = np.logical_and(kept, ~stay.any(axis=-1))
         first = safe.argmax(axis=0)
-        row = np.take_along_axis(rows, first[None, ..., None], axis=0)[0]
-        return np.where(safe.any(axis=0)[..., None], row, np.nan)
+        row: Floats = np.take_along_axis(rows, first[None, ..., None], axis=0)[0]
+        row[~safe.any(axis=0)] = np.nan
+        return row
 
     return chosen
 
