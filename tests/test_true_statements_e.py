@@ -796,7 +796,7 @@ def test_answers_to_the_drag_tasks_of_lab_11_are_true():
         assert np.isfinite(rows).all(axis=-1).any() == exists
     made = run_cells("11", "drift-code")
     assert made["left_over"].tolist() == [1, 0, -1]
-    assert "a pulse too many, and joint 3 one too few" in flat("11", "drift-look")
+    assert "one pulse too many, and joint 3 one too few" in flat("11", "drift-look")
     assert flat("11", "drift-look").count("To the left and towards the base")
     before = np.deg2rad([-30.0, 66, 110])
     after = before + np.deg2rad([0.1, 0, -1 / 40])
@@ -826,7 +826,7 @@ def test_long_turns_and_lost_steps_are_as_stated():
     lost = {motor.run(ramp(48, f, f, 0), ones).lost for f in range(60, 281, 10)}
     assert 0 in lost and not any(each % 4 for each in lost)
     _, options, right = asked("motor_synchronisation.p10")
-    assert re.search(r"the lost steps were 0, \d+", options[right].reason)
+    assert re.search(r"the numbers of lost steps were 0, \d+", options[right].reason)
     assert "A path with corners can be shorter than a wide arc" in written("motor_synchronisation")
 
 
