@@ -681,7 +681,7 @@ def test_stated_minimum_ratio_of_tool_speed_to_joint_speed_holds():
         assert least - 0.0005 <= ratio < 2.5 * (least + 0.0005)
     text = " ".join(sources("06")["near-look"].split())
     most, speed, needed, sigma = re.search(
-        r"can do (\d+)°/s, a tool at (\d+) mm/s is safe above (\S+) mm/s per °/s, "
+        r"can reach (\d+)°/s, a tool at (\d+) mm/s is safe above (\S+) mm/s per °/s, "
         r"or \S+sigma\S+ = (\S+)\.",
         text,
     ).groups()

@@ -251,7 +251,7 @@ def test_speeds_of_joint_1_and_the_change_in_speed_at_via_are_as_stated():
     assert [round(abs(speed).min(), 1), round(abs(speed).max(), 1)] == [low, high]
     _, options, right = asked("irb140_motion.p5")
     said = " ".join(options[right].reason.split())
-    (change,) = numbers(r"to the next, the speed changes by (\S+) rad/s", said)
+    (change,) = numbers(r"With h = 0\.01 s, it is (\S+) rad/s", said)
     made |= run_cells("03", "bezier-code")
     share = np.linspace(0.999, 1, 2)[:, None]  # at via, and 10 ms away from it
     before = IRB140.ik(lin(made["start"], made["via"], share[:, 0]))[:, made["row"], 2]
