@@ -97,7 +97,7 @@ def test_whole_turns_pass_and_small_errors_are_called_nearly_right():
     assert check("scara_kinematics.1", turned).holds
     verdict = check("scara_kinematics.1", little_off)
     assert verdict.mistake == "nearly right"
-    place, is_at = re.search(r"stay at \((.*)\) mm; .* at \((.*)\) mm", verdict.case).groups()
+    place, is_at = re.search(r"be at \((.*)\) mm again; .* at \((.*)\) mm", verdict.case).groups()
     assert place != is_at
 
 

@@ -126,5 +126,7 @@ def test_joint_5_exceeds_its_limit_on_the_lines_that_the_lab_names():
         )
         past.append((upper_arm - gamma + 90 * deg > 115 * deg).any())
     assert past == (~inside[..., 4]).any(axis=1).tolist()
-    first = float(re.search(r"From (\d+) mm on, joint 5 exceeds its limit", cell("slider-look"))[1])
+    first = float(
+        re.search(r"At (\d+) mm and above, joint 5 exceeds its limit", cell("slider-look"))[1]
+    )
     assert past == (names["heights"] >= first).tolist() and 0 < sum(past) < len(past)

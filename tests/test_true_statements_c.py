@@ -174,7 +174,7 @@ def test_first_and_last_x_of_the_rows_in_the_lab_are_those_of_the_triangle():
     """The target of the explorer in section 5, pulled along x: front -1 ends first."""
     says = flat("02", "drag-target-look")
     ends = numbers(
-        r"At x = (\d+) mm the four rows with front −1 vanish, at (\d+) mm the others", says
+        r"At x = (\d+) mm, the four rows with front −1 vanish, and at (\d+) mm, the others", says
     )
     ahead, more = numbers(r"shoulder is (\d+) mm ahead of axis 1.*up to (\d+) mm farther", says)
     assert more == 2 * ahead == 140
@@ -194,8 +194,8 @@ def test_limits_of_the_moving_target_are_as_stated():
     low, high = IRB140.limits.T
     says = flat("02", "limits")
     first, second, limit, none = numbers(
-        r"At (\d+) and (\d+) mm joint 3 starts past its limit of (\d+)°. "
-        r"From (\d+) mm on, no joint exceeds a limit.",
+        r"At (\d+) and (\d+) mm, joint 3 starts past its limit of (\d+)°. "
+        r"At (\d+) mm and above, no joint exceeds a limit.",
         says,
     )
     assert [first, second, none] == made["heights"][:3] and limit == high[2] / deg
@@ -233,7 +233,7 @@ def test_the_triangle_closes_between_the_stated_distances():
         rows = IRB140.ik(Transform(down, np.array([70, 0, 352 + d - 65]) * mm))
         assert np.isfinite(rows[:4]).all() == (least < d < most)
     ahead, more = numbers(
-        r"shoulder is (\d+) mm ahead of axis 1.* it is (\d+) mm away from there", hint
+        r"shoulder is (\d+) mm in front of axis 1.* it is (\d+) mm away from there", hint
     )
     assert more == 2 * ahead == 140
 
@@ -251,7 +251,7 @@ def test_speeds_of_joint_1_and_the_change_in_speed_at_via_are_as_stated():
     assert [round(abs(speed).min(), 1), round(abs(speed).max(), 1)] == [low, high]
     _, options, right = asked("irb140_motion.p5")
     said = " ".join(options[right].reason.split())
-    (change,) = numbers(r"to the next, the speed changes by (\S+) rad/s", said)
+    (change,) = numbers(r"With h = 0\.01 s, it is (\S+) rad/s", said)
     made |= run_cells("03", "bezier-code")
     share = np.linspace(0.999, 1, 2)[:, None]  # at via, and 10 ms away from it
     before = IRB140.ik(lin(made["start"], made["via"], share[:, 0]))[:, made["row"], 2]

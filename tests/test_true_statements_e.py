@@ -264,7 +264,7 @@ def test_only_the_arms_length_limits_the_reach_in_front():
 
 def test_first_lever_turns_by_the_stated_angle_if_the_second_is_short():
     _, options, _ = asked("scara_kinematics.p3")
-    pattern = r"levers of (\d+) and (\d+) mm the first one turns by (\d+)°"
+    pattern = r"levers of (\d+) and (\d+) mm, the first one turns by at most (\d+)°"
     l1, l2, most = numbers(pattern, " ".join(each.second for each in options))
     q2 = np.linspace(-np.pi, np.pi, 100001)
     inner = np.arctan2(l2 * np.sin(q2), l1 + l2 * np.cos(q2))

@@ -149,11 +149,11 @@ def test_line_at_variable_speed_saves_most_of_the_lost_time_but_never_beats_ptp(
     """Joint 1 is computed from the position of the wrist centre, the other joints with `ik`."""
     reason = one_line(option("irb140_motion.p2", "between").reason)
     (best,) = numbers(r"It takes (\S+) s\.", reason)
-    (low,) = numbers(r"at the start joint 1 moved at (\d+) % of its limit", reason)
-    (turn,) = numbers(r"the same turn of (\d+)° in both", reason)
+    (low,) = numbers(r"at the start, joint 1 moved at only (\d+) % of its speed limit", reason)
+    (turn,) = numbers(r"joint 1 turns by (\d+)° in both", reason)
     question = one_line(asked("irb140_motion.p2")[0])
     (lin_time,), (ptp_time,) = (
-        numbers(p, question) for p in (r"LIN .* took (\S+) s;", r"PTP took (\S+) s")
+        numbers(p, question) for p in (r"in LIN and took (\S+) s;", r"in PTP, it took (\S+) s")
     )
     s = np.linspace(0, 1, 4001)
     first, last = about([-1, 0, 0], np.pi / 2), about([0, 1, 0], np.pi / 2)
@@ -201,8 +201,10 @@ def test_trapezoidal_law_brakes_at_full_strength_until_the_end():
 
 def test_quintic_corner_raises_the_tools_peak_acceleration_by_the_stated_factor():
     second = one_line(option("irb140_motion.p7", "much more").second)
-    told = r"At the same blend the quintic gives the tool (\S+) times the parabola's greatest"
-    (factor,) = numbers(told + r" acceleration in the corner\.", second)
+    told = (
+        r"At the same blend, the greatest acceleration of the tool in the quintic corner is (\S+)"
+    )
+    (factor,) = numbers(told + r" times that in the parabola\.", second)
     start, via, goal = np.array([[200, 400, 200], [650, -100, 800], [300, 300, 500.0]])
     x = np.linspace(0, 1, 1001)[:, None]
 

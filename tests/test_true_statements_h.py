@@ -182,7 +182,7 @@ def test_tool_turns_by_30_degrees_while_joint_3_compensates_for_the_arm():
 
 def test_least_heights_of_the_via_point_are_as_stated():
     without, with_blend = numbers(
-        r"At (\S+) mm the stroke .* With a blend of 0\.1, \*via\* may be as low as (\S+) mm",
+        r"At (\S+) mm the stroke .* With a blend of 0\.1, \*via\* can be as low as (\S+) mm",
         flat("05", "blend-answer"),
     )
     assert without == pytest.approx(DEEPEST)

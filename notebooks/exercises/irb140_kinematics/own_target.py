@@ -74,7 +74,7 @@ def form(answer: Any, given: Any) -> dict[str, Any]:
 
 
 def faults(design: Mapping[str, Any], given: Mapping[str, Any]) -> list[Fault]:
-    """What is wrong: a posture is missing, a limit is exceeded, too fast a motion, or too slow."""
+    """What is wrong: a pose out of reach, a limit exceeded, a motion too fast or too slow."""
     height, duration = design["height"], design["duration"]
     if height > 5:
         name = "mm for m" if height >= 200 else "cm for m"

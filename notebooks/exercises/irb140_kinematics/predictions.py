@@ -27,7 +27,7 @@ def moved(q: Any, k: int, by: float, point: Any = (0, 0, 0)) -> float:
 
 
 def p1() -> dict[str, Any]:
-    """The joints that turn the flange on the spot in the home posture."""
+    """The joints that turn the flange without moving it in the home posture."""
     home, bent = np.zeros(6), np.array([0, 0, 0, 0, 45, 0]) * deg
     at_home = [moved(home, k, 45 * deg) for k in range(6)]
     still = tuple(k + 1 for k, x in enumerate(at_home) if x < 1e-6)

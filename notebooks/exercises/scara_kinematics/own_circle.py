@@ -20,7 +20,7 @@ UNITS = {
     "bearing": ("°", deg),
     "turns": ("whole turns", 1.0),
 }
-AWAY = 25 * deg  # joint 2 has to stay this far from the stretched arm
+AWAY = 25 * deg  # joint 2 has to stay this far from 0
 LEVEL = 100 * mm
 SAMPLES = 361
 SLACK = 1e-6
@@ -100,8 +100,8 @@ def past(q: Floats, given: Given) -> Floats:
 
 
 def faults(design: Given, given: Given) -> list[Fault]:
-    """What is wrong with the hole, the reach, the limits of joints 1, 2 and 3, and the stretch of
-    the arm.
+    """What is wrong with the hole, the reach, the limits of joints 1, 2 and 3, and how straight
+    the arm is.
     """
     wrong = about_hole(design["hole"], given)
     return [*([wrong] if wrong else []), *circle(design, given)]

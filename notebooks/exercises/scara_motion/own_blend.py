@@ -21,7 +21,7 @@ UNITS["acceleration"] = ("mm/s²", mm)
 
 def given(who: Any) -> Numbers:
     """A via point too low for the stroke. Joints 1 to 3 do not depend on heights, so they stay
-    inside as in the lab; by construction the smallest blend that keeps the stroke (0.12 to 0.29)
+    inside as in the lab; by construction the smallest blend that keeps q4 inside (0.12 to 0.29)
     meets the other conditions, and so do all blends up to 1.1 times as large.
     """
     roll = dice("scara_motion", who)

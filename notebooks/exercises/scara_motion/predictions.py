@@ -103,8 +103,8 @@ def p6() -> Mapping[str, Any]:
 
 @cache
 def p7() -> Mapping[str, Any]:
-    """The joints that can leave their limits, coming from inside, without a test of wrapped angles
-    noticing: uniform motions from the middle to 50 ends, 1001 samples each.
+    """The joints that can leave their limits from inside although a test of wrapped angles accepts
+    every sample: uniform motions from the middle to 50 ends, 1001 samples each.
     """
     blind = []
     for i in range(4):
@@ -138,7 +138,7 @@ def p8() -> Mapping[str, Any]:
 
 @cache
 def p9() -> Mapping[str, Any]:
-    """The smallest blend with which the lab's motion keeps the stroke, for two corners."""
+    """The smallest blend that keeps the stroke of the lab's motion inside, for two corners."""
     parabola, quintic = (
         (LEVEL - HIGH[3]) / (LEVEL - stroke(0.5, np.linspace(0, 1, 4001), corner).max()) / 2
         for corner in ("parabola", "quintic")

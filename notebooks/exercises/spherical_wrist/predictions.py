@@ -191,7 +191,7 @@ def passed(miss: float) -> Floats:
 
 
 def joint4_speeds(miss: float) -> Floats:
-    """The speeds (2001,) of joint 4 at PLACES in °/s, from the Jacobian; the tool has 100 mm/s."""
+    """The speeds (2001,) of joint 4 at PLACES, °/s, by the Jacobian; the tool moves at 100 mm/s."""
     velocity = np.array([0, 1, 1, 0, 0, 0]) / np.sqrt(2) * 100 * mm
     speeds: Floats = np.linalg.solve(ITMO6R.jacobian(passed(miss)), velocity)
     return abs(speeds[:, 3]) / deg
