@@ -5,7 +5,7 @@ import pytest
 from robokin.course import book
 from robokin.course.guesses import CHOICE
 from robokin.course.predictions import chosen
-from robokin.course.questions import LETTERS, chosen_option, filled
+from robokin.course.questions import LETTERS, Option, Prediction, chosen_option, filled
 
 NAME = "puma560_branches.p2"
 
@@ -26,3 +26,21 @@ def test_option_name_takes_precedence_over_its_letter():
         with pytest.raises(ValueError, match="choice: wanted one of a, b, c, d"):
             chosen_option(prediction, options, right, wrong)
         assert not isinstance(wrong, str) or chosen(NAME, wrong) == wrong
+
+
+def test_a_line_may_end_inside_the_name_of_a_fact():
+    whole = "It turns by {at the stop:.1f}°."
+    for written in (
+        whole,
+        whole.replace("the stop", "the\n  stop"),
+        whole.replace("{at ", "{at\n"),
+    ):
+        asked = Prediction(
+            question=written,
+            options=[Option(written, written, None, written, "one")],
+            facts=lambda: {"at the stop": 12.34},
+            right=lambda facts: 0,
+        )
+        question, [option], right = filled(asked)
+        assert right == 0 and option.confusion is None
+        assert {question, option.text, option.reason, option.second} == {"It turns by 12.3°."}

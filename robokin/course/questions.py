@@ -59,17 +59,17 @@ class Prediction:
 def filled(prediction: Prediction) -> tuple[str, list[Option], int]:
     """The question, the options and the index of the right one, with all facts filled in."""
     facts = prediction.facts()
+
+    def fill(text: str) -> str:
+        """Fill in the facts. A line of the file may end inside a name, as inside a sentence."""
+        whole = re.sub(r"{[^{}]*}", lambda name: " ".join(name[0].split()), text)
+        return whole.format(**facts)
+
     options = [
-        Option(
-            each.text.format(**facts),
-            each.reason.format(**facts),
-            each.confusion,
-            each.second.format(**facts),
-            each.name,
-        )
+        Option(fill(each.text), fill(each.reason), each.confusion, fill(each.second), each.name)
         for each in prediction.options
     ]
-    return prediction.question.format(**facts), options, prediction.right(facts)
+    return fill(prediction.question), options, prediction.right(facts)
 
 
 def chosen_option(
