@@ -5,12 +5,14 @@ from dataclasses import dataclass
 
 # The text drawn on each canvas since it was last cleared: its string, size in CSS px, colour, box
 # on the page, the mean colour of the pixels below, and whether an outline was drawn first. Also the
-# joints: the boxes of the shapes that were filled with the colour of a joint.
+# joints, which are the boxes of the shapes that were filled with the colour of a joint, and the
+# links, which are the ends of the lines in their colour.
 RECORD = """
 (() => {
   const words = new WeakMap(), outlined = new WeakMap(), joints = new WeakMap();
+  const links = new WeakMap();
   const proto = CanvasRenderingContext2D.prototype;
-  const {fillText, strokeText, clearRect, fill, beginPath, ellipse, lineTo} = proto;
+  const {fillText, strokeText, clearRect, fill, stroke, beginPath, ellipse, lineTo, moveTo} = proto;
   let traced = [];
   const trace = (g, x, y, r) => {
     const {a, b, c, d, e, f} = g.getTransform(), size = Math.hypot(a, b);
@@ -29,6 +31,16 @@ RECORD = """
     trace(this, x, y, 0);
     return lineTo.call(this, x, y);
   };
+  proto.moveTo = function (x, y) {
+    trace(this, x, y, 0);
+    return moveTo.call(this, x, y);
+  };
+  proto.stroke = function (...all) {
+    const link = getComputedStyle(this.canvas).getPropertyValue("--rk-link").trim();
+    if (this.strokeStyle === link.toLowerCase() && this.globalAlpha === 1)
+      links.get(this.canvas)?.push(traced.slice(-2).flatMap(p => p.slice(0, 2)));
+    return stroke.apply(this, all);
+  };
   proto.fill = function (...all) {
     const style = getComputedStyle(this.canvas), color = String(this.fillStyle).toLowerCase();
     const paint = [1, 2, 3, 4, 5, 6].map(k => style.getPropertyValue(`--rk-joint${k}`).trim());
@@ -43,6 +55,7 @@ RECORD = """
   proto.clearRect = function (...box) {
     words.set(this.canvas, []);
     joints.set(this.canvas, []);
+    links.set(this.canvas, []);
     return clearRect.apply(this, box);
   };
   proto.strokeText = function (text, x, y) {
@@ -81,6 +94,7 @@ RECORD = """
       paper: getComputedStyle(canvas).getPropertyValue("--rk-paper").trim(),
       width: canvas.clientWidth, height: canvas.clientHeight,
       words: words.get(canvas) ?? [], joints: joints.get(canvas) ?? [],
+      links: links.get(canvas) ?? [],
       handles: [...(canvas.closest(".rk-space")?.querySelectorAll("[data-handle]") ?? [])]
         .filter(node => node.checkVisibility())
         .map(node => {
@@ -146,6 +160,8 @@ def faults(page):
                     core = (x + ROUND * w, y + ROUND * h, (1 - 2 * ROUND) * w, (1 - 2 * ROUND) * h)
                     if reach(word["box"], core) > OVERLAP:
                         found.append(Fault(text, f"on one of the {name}", kind))
+            if any(crosses(word["box"], link) for link in canvas["links"]):
+                found.append(Fault(text, "on a link", kind))
     return found
 
 
@@ -153,6 +169,15 @@ def reach(one, other):
     """The overlap of two boxes in px; negative if they do not overlap."""
     (x, y, w, h), (u, v, a, b) = one, other
     return min(min(x + w, u + a) - max(x, u), min(y + h, v + b) - max(y, v))
+
+
+def crosses(box, line):
+    """Whether the middle of a link passes through a box."""
+    x, y, w, h = box
+    a, b, c, d = line
+    return any(
+        x < a + k / 50 * (c - a) < x + w and y < b + k / 50 * (d - b) < y + h for k in range(51)
+    )
 
 
 def below(ground, paper):

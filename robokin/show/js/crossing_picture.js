@@ -34,12 +34,11 @@ export function named({rows, words, arm}, {tip}, {rows: q, elbows, which}) {
 
 /**
  * The arm with the elbow that the formula returns. The other elbow is drawn faintly.
- * @param {(cam: Camera) => Box[]} place  of the handles
  * @param {CrossingExplorer} data
  * @param {State} state
  * @param {Found} found
  */
-export function posed(place, data, state, found) {
+export function posed(data, state, found) {
   const {arm, divisor, words} = data,
     {rows, which} = found,
     chosen = divisor === null ? 0 : which;
@@ -51,7 +50,6 @@ export function posed(place, data, state, found) {
     ghosts: rows.filter((_, k) => k !== chosen).map(q => ({q, past: false})),
     /** @type {(g: Context, cam: Camera) => void} */
     under: (g, cam) => drawTracks(g, cam, data, state, found),
-    handles: place,
     labels:
       divisor === null
         ? []

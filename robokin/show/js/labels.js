@@ -11,20 +11,20 @@ import {WORD, font, ink, stroke, wordInk, write} from "./canvas.js";
  * @property {Pixel} at  its point
  * @property {string} color
  * @property {string} [weight]
- * @property {Pixel} [away]  the preferred direction from its point; otherwise to the upper right
+ * @property {Pixel} [away]  the preferred direction from its point; without it, the label prefers
+ *   the upper right, and a distant label has a line to its point
  * @property {boolean} [near]  whether to leave it out if there is no free place close to its point
  */
 
-/** @typedef {Map<string, {at: Pixel, gap: number, turn: number}>} Memory */
+/** @typedef {[x: number, y: number, r: number, weight: number]} Dot  a part of the ink */
 
-const CELL = 4, // px: the size of the cells in which the ink is counted
-  GAPS = [5, 14, 26, 40, 58], // px between a point and its label; the last two need a line
-  NEAR = 26,
-  TURNS = 12,
+const GAPS = [5, 14, 26, 40, 58], // px between a point and its label
+  TURNS = 12, // the number of directions
+  NEAR = 3 * TURNS, // the number of places without a line
   HIGH = 16, // px: the height of a label
-  STAYS = 1.5, // the cost that a label avoids by staying where it was in the last picture
-  JUMP = 40; // px: a point that moves farther takes its label to a new place
-/** @type {WeakMap<Context, Memory>} */
+  STAYS = 1.5, // the cost that a label saves if it stays where it was in the last picture
+  JUMP = 40; // px: if its point has moved farther, a label takes a new place
+/** @type {WeakMap<Context, Map<string, [place: number, x: number, y: number]>>} */
 const memories = new WeakMap();
 
 /**
@@ -34,115 +34,66 @@ const memories = new WeakMap();
  * @param {Box} room
  * @param {Box[]} [handles]  the boxes of the handles, which no label covers
  */
-export function placeLabels(g, labels, room, handles = []) {
-  const cells = cellsOf(room),
-    memory = memories.get(g) ?? new Map();
+export function placeLabels(g, labels, [left, top, width, height], handles = []) {
+  const memory = memories.get(g) ?? new Map(),
+    dots = [...ink, ...handles.map(wordInk)].flatMap(dotsOf);
   memories.set(g, memory);
-  for (const each of [...ink, ...handles.map(wordInk)]) cells.mark(each);
-  labels.forEach(({text, at, color, weight, away, near}, k) => {
+  for (const {text, at, color, weight, away, near} of labels) {
     g.font = font(12, weight);
     const wide = g.measureText(text).width + 4,
-      key = [...room.slice(0, 2), k, text.replace(/[\d.]/g, "")].join();
-    const {cost, gap, turn, box} = bestPlace(cells, at, wide, away, near, memory.get(key));
-    if (near && cost >= WORD) return;
-    memory.set(key, {at, gap, turn});
-    const [x, y] = box,
-      end = /** @type {Pixel} */ ([
-        Math.min(Math.max(at[0], x), x + wide),
-        Math.min(Math.max(at[1], y), y + HIGH),
-      ]);
-    if (gap > NEAR) {
-      stroke(g, [at, end], color, 1);
-      cells.mark([[at, end], 1, 1]);
+      key = text.replace(/(?<![a-z])[\d.]+/gi, ""), // without numbers, which change
+      [last, ...from] = memory.get(key) ?? [-1, 0, 0],
+      [ax, ay] = away ?? [0.5, -0.5],
+      [px, py] = [between(at[0], left, width), between(at[1], top, height)],
+      close = dots.filter(
+        ([x, y, r]) => Math.abs(x - px) < wide + r + 60 && Math.abs(y - py) < r + 80,
+      );
+    let [least, x, y, place] = [Infinity, 0, 0, 0];
+    for (let k = 0; k < (near ? NEAR : GAPS.length * TURNS); k++) {
+      const gap = GAPS[Math.floor(k / TURNS)],
+        turn = (2 * Math.PI * k) / TURNS,
+        [c, s] = [Math.cos(turn), -Math.sin(turn)],
+        stays = k === last && Math.hypot(from[0] - px, from[1] - py) < JUMP ? STAYS : 0,
+        u = px + c * (gap + wide / 2) - wide / 2,
+        v = py + s * (gap + HIGH / 2) - HIGH / 2;
+      let cost = gap / 6 + 1 - ax * c - ay * s - stays;
+      if (u !== between(u, left, width - wide) || v !== between(v, top, height - HIGH)) cost += 99;
+      if (cost >= least) continue;
+      for (const [dx, dy, r, heavy] of close)
+        if (dx > u - r && dx < u + wide + r && dy > v - r && dy < v + HIGH + r) cost += heavy;
+      if (cost < least) [least, x, y, place] = [cost, u, v, k];
     }
-    cells.mark(wordInk(box));
+    if (near && least >= WORD) continue;
+    memory.set(key, [place, px, py]);
+    const before = ink.length;
+    if (place >= NEAR && !away)
+      stroke(g, [at, [between(px, x, wide), between(py, y, HIGH)]], color, 1);
     write(g, text, x + 2, y + 12, color, 12, "left", weight);
-  });
-}
-
-/**
- * @param {ReturnType<typeof cellsOf>} cells
- * @param {Pixel} at
- * @param {number} wide
- * @param {Pixel} [away]
- * @param {boolean} [near]
- * @param {{at: Pixel, gap: number, turn: number}} [last]
- */
-function bestPlace(cells, at, wide, [ax, ay] = [0.5, -0.5], near, last) {
-  const kept = last && Math.hypot(last.at[0] - at[0], last.at[1] - at[1]) < JUMP ? last : null;
-  let best = {cost: Infinity, gap: 0, turn: 0, box: /** @type {Box} */ ([NaN, NaN, wide, HIGH])};
-  for (const gap of GAPS)
-    for (let turn = 0; turn < TURNS; turn++) {
-      if (near && gap > NEAR) break;
-      const c = Math.cos((2 * Math.PI * turn) / TURNS),
-        s = -Math.sin((2 * Math.PI * turn) / TURNS);
-      const own = gap / 6 + 1 - ax * c - ay * s,
-        stays = kept?.gap === gap && kept.turn === turn ? STAYS : 0;
-      if (own - stays >= best.cost) continue;
-      /** @type {Box} */
-      const box = [
-        at[0] + c * (gap + wide / 2) - wide / 2,
-        at[1] + s * (gap + HIGH / 2) - HIGH / 2,
-        wide,
-        HIGH,
-      ];
-      const cost = own - stays + cells.below(box);
-      if (cost < best.cost) best = {cost, gap, turn, box};
-    }
-  return best;
-}
-
-/**
- * The ink in a room, counted in cells.
- *
- * mark(ink)   adds a line, a disc or a word
- * below(box)  the cost of a label there: the ink that it covers, and what is outside the room
- *
- * @param {Box} room
- */
-function cellsOf([left, top, width, height]) {
-  const columns = Math.max(1, Math.ceil(width / CELL)),
-    rows = Math.max(1, Math.ceil(height / CELL)),
-    cells = new Uint8Array(columns * rows);
-  /** @type {(x: number) => number} */
-  const column = x => Math.max(0, Math.min(columns - 1, Math.floor((x - left) / CELL)));
-  /** @type {(y: number) => number} */
-  const row = y => Math.max(0, Math.min(rows - 1, Math.floor((y - top) / CELL)));
-  /** @type {(x: number, y: number, r: number, weight: number) => void} */
-  function dot(x, y, r, weight) {
-    if (!(x + r > left && x - r < left + width && y + r > top && y - r < top + height)) return;
-    for (let i = row(y - r); i <= row(y + r); i++)
-      for (let j = column(x - r), last = column(x + r); j <= last; j++)
-        cells[i * columns + j] = Math.max(cells[i * columns + j], weight);
+    dots.push(...ink.slice(before).flatMap(dotsOf));
   }
-  return {
-    /** @param {Ink} ink */
-    mark([points, wide, weight]) {
-      /** @type {?Pixel} */
-      let from = null;
-      for (const to of points) {
-        if (to) {
-          const [x, y] = from ?? to,
-            [dx, dy] = [to[0] - x, to[1] - y],
-            count = Math.min(500, Math.ceil(Math.hypot(dx, dy) / CELL)) || 1;
-          for (let i = from ? 1 : 0; i <= count; i++)
-            dot(x + (i / count) * dx, y + (i / count) * dy, wide / 2, weight);
-        }
-        from = to;
-      }
-    },
-    /** @param {Box} box */
-    below([x, y, w, h]) {
-      let sum =
-        3 *
-        (Math.max(0, left - x) +
-          Math.max(0, x + w - left - width) +
-          Math.max(0, top - y) +
-          Math.max(0, y + h - top - height));
-      for (let i = row(y); i <= row(y + h - 1); i++)
-        for (let j = column(x), last = column(x + w - 1); j <= last; j++)
-          sum += cells[i * columns + j];
-      return sum;
-    },
-  };
+}
+
+/** @type {(x: number, low: number, size: number) => number} */
+const between = (x, low, size) => Math.max(low, Math.min(low + size, x));
+
+/**
+ * The dots of a line.
+ * @param {Ink} ink
+ */
+function dotsOf([points, wide, weight]) {
+  /** @type {Dot[]} */
+  const dots = [];
+  /** @type {?Pixel} */
+  let from = null;
+  for (const to of points) {
+    if (to) {
+      const [x, y] = from ?? to,
+        [dx, dy] = [to[0] - x, to[1] - y],
+        count = Math.min(300, Math.ceil(Math.hypot(dx, dy) / (4 + wide / 4))) || 1;
+      for (let i = 1; i <= count; i++)
+        dots.push([x + (i / count) * dx, y + (i / count) * dy, wide / 2, weight]);
+    }
+    from = to;
+  }
+  return dots;
 }

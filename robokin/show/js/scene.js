@@ -251,13 +251,21 @@ function drawSpace(pen, arms, [x, y, w, h], named) {
   for (const kind in KINDS) KINDS[kind].below(pen, only(kind));
   [...all].sort((p, q) => p.depth - q.depth).forEach(drawStood);
   /** @type {Label[]} */
-  const labels = all.flatMap(drawFlange);
+  const labels = all.flatMap(({cam, joints, past = []}) =>
+    past.map(j => ({
+      text: `q${j + 1} past its limit`,
+      at: cam.to(origin(joints[j])),
+      color: colors.alarm,
+      weight: "600",
+    })),
+  );
+  labels.push(...all.flatMap(drawFlange));
   for (const kind in KINDS) KINDS[kind].above({...pen, near: first.near}, only(kind), labels);
   compass(g, cam, [x + w - 34, y + h - 34]);
   if (named) write(g, first.name, x + 10, y + 18, colors.ink, 13, "left", "600");
   if (arms.some(arm => arm.faded)) {
-    const [px, py] = [x + w / 2, y + (named ? 40 : 22)];
-    write(g, "no solution here", px, py, colors.alarm, 14, "center", "600");
+    const at = /** @type {Pixel} */ ([x + w / 2, y]);
+    labels.push({text: "no solution here", at, color: colors.alarm, weight: "600", away: [0, 1]});
   }
   if (first.row && arms.length === 1) {
     const at = /** @type {Pixel} */ ([x + 3, y + h - 22]);
@@ -265,18 +273,6 @@ function drawSpace(pen, arms, [x, y, w, h], named) {
   }
   for (const {cam, labels: own = []} of all)
     for (const label of own) labels.push({weight: "600", ...label, at: cam.to(label.at)});
-  for (const {
-    cam: {to},
-    joints,
-    past = [],
-  } of all)
-    for (const j of past)
-      labels.push({
-        text: `q${j + 1} past its limit`,
-        at: to(origin(joints[j])),
-        color: colors.alarm,
-        weight: "600",
-      });
   placeLabels(
     g,
     labels,

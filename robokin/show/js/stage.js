@@ -46,14 +46,14 @@ export function stageOf(root, data) {
     canvas,
     camera,
     hold: view.hold,
-    /** @param {Explored[]} arms */
+    /** @type {(arms: Explored[]) => boolean} */
     draw([arm, ...more]) {
       /** @type {Draw} */
       const over = (g, cam) => {
         arm.over?.(g, cam);
         drawAids(g, cam, arm, scene.size);
       };
-      return view.draw(state.view, [{...arm, over}, ...more], "");
+      return view.draw(state.view, [{...arm, over, handles: stage.handles.place}, ...more], "");
     },
   });
   orbit(canvas, scene, state, stage.ask);
