@@ -11,6 +11,7 @@ RECORD = """
 (() => {
   const words = new WeakMap(), outlined = new WeakMap(), joints = new WeakMap();
   const links = new WeakMap();
+  const kept = (map, {canvas}) => map.get(canvas) ?? map.set(canvas, []).get(canvas);
   const proto = CanvasRenderingContext2D.prototype;
   const {fillText, strokeText, clearRect, fill, stroke, beginPath, ellipse, lineTo, moveTo} = proto;
   let traced = [];
@@ -38,7 +39,7 @@ RECORD = """
   proto.stroke = function (...all) {
     const link = getComputedStyle(this.canvas).getPropertyValue("--rk-link").trim();
     if (this.strokeStyle === link.toLowerCase() && this.globalAlpha === 1)
-      links.get(this.canvas)?.push(traced.slice(-2).flatMap(p => p.slice(0, 2)));
+      kept(links, this).push(traced.slice(-2).flatMap(p => p.slice(0, 2)));
     return stroke.apply(this, all);
   };
   proto.fill = function (...all) {
@@ -47,8 +48,7 @@ RECORD = """
     if (traced.length && paint.some(each => each.toLowerCase() === color)) {
       const [left, top] = [0, 1].map(k => Math.min(...traced.map(p => p[k] - p[2])));
       const [right, bottom] = [0, 1].map(k => Math.max(...traced.map(p => p[k] + p[2])));
-      if (!joints.has(this.canvas)) joints.set(this.canvas, []);
-      joints.get(this.canvas).push([left, top, right - left, bottom - top]);
+      kept(joints, this).push([left, top, right - left, bottom - top]);
     }
     return fill.apply(this, all);
   };
@@ -80,8 +80,7 @@ RECORD = """
         return sum * 4 / data.length;
       });
     }
-    if (!words.has(this.canvas)) words.set(this.canvas, []);
-    words.get(this.canvas).push({
+    kept(words, this).push({
       text, size: size * d / ratio, color: this.fillStyle, box: [left, top, width, height], ground,
     });
     return fillText.call(this, text, x, y);
@@ -155,12 +154,15 @@ def faults(page):
             for other in seen[:k]:
                 if other["text"] != text and reach(word["box"], other["box"]) > OVERLAP:
                     found.append(Fault(text, f"over {other['text']!r}", kind))
-            for name in ("joints", "handles"):
+            still = text.startswith("grid ") or word["size"] < 11
+            for name in () if still or "rk-motor" in kind else ("joints", "handles"):
                 for x, y, w, h in canvas[name]:
                     core = (x + ROUND * w, y + ROUND * h, (1 - 2 * ROUND) * w, (1 - 2 * ROUND) * h)
                     if reach(word["box"], core) > OVERLAP:
                         found.append(Fault(text, f"on one of the {name}", kind))
-            if any(crosses(word["box"], link) for link in canvas["links"]):
+            # the scale and the compass keep their corners, where an arm or a handle may come; the
+            # names on the parts of a motor belong there
+            if not still and any(crosses(word["box"], link) for link in canvas["links"]):
                 found.append(Fault(text, "on a link", kind))
     return found
 

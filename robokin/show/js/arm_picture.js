@@ -1,7 +1,7 @@
 // Draws an arm in a scene: its links and joints, its path, and its shadow on the floor.
 
 import {movedTo} from "./camera.js";
-import {clear, colors, ink, jointColor, polygon, shape, spot, stroke} from "./canvas.js";
+import {WORD, clear, colors, ink, jointColor, polygon, shape, spot, stroke} from "./canvas.js";
 import {distance, dot, frames, origin, plus, polyline, turned} from "./kinematics.js";
 import {triad} from "./triad.js";
 
@@ -257,7 +257,7 @@ function drum(g, cam, p, axis, radius, color) {
     angle = Math.atan2(dy, dx);
   const half = 0.85 * radius * long,
     side = dot(axis, cam.toward) > 0 ? 1 : -1; // `half` is half the drum's length on screen
-  ink.push([[[cx, cy]], 2 * radius, 9]);
+  ink.push([[[cx, cy]], 2 * radius, WORD]);
   g.save();
   g.translate(cx, cy);
   g.rotate(angle);
@@ -294,5 +294,6 @@ function box(g, cam, p, axis, radius, color) {
   const corners = [0, 1, 2, 3]
     .map(k => angle + (k * Math.PI) / 2)
     .map(/** @returns {Pixel} */ t => [x + r * Math.cos(t), y + r * Math.sin(t)]);
+  ink.push([[[x, y]], 2 * radius, WORD]);
   polygon(g, corners, color, colors.edge, 1.2);
 }

@@ -55,7 +55,7 @@ export const colors = {
   joint6: "",
 };
 
-/** The weight of words and handles, which no label may cover. */
+/** The weight of words, joints and handles, which no label may cover. */
 export const WORD = 40;
 
 /** @type {Ink[]}  what has been drawn since a canvas was cleared */

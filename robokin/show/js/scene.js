@@ -241,13 +241,15 @@ function drawSpace(pen, arms, [x, y, w, h], named) {
     all = arms.map((arm, i) => stood(pen, arm, scene.bases?.[i]));
   /** @type {(kind: string) => Now<PageThing>[]} */
   const only = kind => scene.things.filter(thing => thing.kind === kind);
-  const sunk = all.filter(one => one.dips),
-    before = ink.length;
+  const sunk = all.filter(one => one.dips);
+  let before = ink.length;
   drawFloor(pen);
+  ink.length = before; // labels may cover the floor and the shadows
   for (const one of sunk) drawRods(one);
+  before = ink.length;
   if (sunk.length) drawFloor(pen, true);
   if (pen.space.spatial) all.forEach(drawShadow);
-  ink.length = before; // labels may cover the floor and what is below it
+  ink.length = before;
   for (const kind in KINDS) KINDS[kind].below(pen, only(kind));
   [...all].sort((p, q) => p.depth - q.depth).forEach(drawStood);
   /** @type {Label[]} */
