@@ -257,7 +257,7 @@ function drum(g, cam, p, axis, radius, color) {
     angle = Math.atan2(dy, dx);
   const half = 0.85 * radius * long,
     side = dot(axis, cam.toward) > 0 ? 1 : -1; // `half` is half the drum's length on screen
-  ink.push([[[cx, cy]], 2 * radius, WORD]);
+  ink.push([[[cx, cy]], 2.4 * radius, WORD]);
   g.save();
   g.translate(cx, cy);
   g.rotate(angle);

@@ -56,7 +56,7 @@ export const colors = {
 };
 
 /** The weight of words, joints and handles, which no label may cover. */
-export const WORD = 40;
+export const WORD = 200;
 
 /** @type {Ink[]}  what has been drawn since a canvas was cleared */
 export const ink = [];
@@ -131,7 +131,9 @@ export function replaceStill(root, frame, ...canvases) {
  * @param {number[]} [dash]
  */
 export function stroke(g, points, color, width, dash = []) {
-  if (!color.startsWith(colors.paper)) ink.push([points, width, Math.min(9, width)]);
+  // a label may cover a halo and a hatching
+  if (!color.startsWith(colors.paper) && (width > 1 || isSolid(color)))
+    ink.push([points, width, Math.min(9, width)]);
   g.strokeStyle = color;
   g.lineWidth = width;
   g.setLineDash(dash);

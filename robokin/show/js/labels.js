@@ -18,10 +18,11 @@ import {WORD, font, ink, stroke, wordInk, write} from "./canvas.js";
 
 /** @typedef {[x: number, y: number, r: number, weight: number]} Dot  a part of the ink */
 
-const GAPS = [5, 14, 26, 40, 58], // px between a point and its label
+const GAPS = [5, 14, 26, 40, 58, 84], // px between a point and its label
   TURNS = 12, // the number of directions
   NEAR = 3 * TURNS, // the number of places without a line
   HIGH = 16, // px: the height of a label
+  MOST = 40, // the cost above which a label with `near` is left out
   STAYS = 1.5, // the cost that a label saves if it stays where it was in the last picture
   JUMP = 40; // px: if its point has moved farther, a label takes a new place
 /** @type {WeakMap<Context, Map<string, [place: number, x: number, y: number]>>} */
@@ -35,10 +36,14 @@ const memories = new WeakMap();
  * @param {Box[]} [handles]  the boxes of the handles, which no label covers
  */
 export function placeLabels(g, labels, [left, top, width, height], handles = []) {
-  const memory = memories.get(g) ?? new Map(),
-    dots = [...ink, ...handles.map(wordInk)].flatMap(dotsOf);
+  const memory = memories.get(g) ?? new Map();
   memories.set(g, memory);
+  ink.push(...handles.map(wordInk));
+  /** @type {Dot[]} */
+  const dots = [];
+  let marked = 0; // the number of lines in `ink` whose dots are known
   for (const {text, at, color, weight, away, near} of labels) {
+    while (marked < ink.length) mark(dots, ink[marked++]);
     g.font = font(12, weight);
     const wide = g.measureText(text).width + 4,
       key = text.replace(/(?<![a-z])[\d.]+/gi, ""), // without numbers, which change
@@ -46,7 +51,7 @@ export function placeLabels(g, labels, [left, top, width, height], handles = [])
       [ax, ay] = away ?? [0.5, -0.5],
       [px, py] = [between(at[0], left, width), between(at[1], top, height)],
       close = dots.filter(
-        ([x, y, r]) => Math.abs(x - px) < wide + r + 60 && Math.abs(y - py) < r + 80,
+        ([x, y, r]) => Math.abs(x - px) < wide + r + 90 && Math.abs(y - py) < r + 110,
       );
     let [least, x, y, place] = [Infinity, 0, 0, 0];
     for (let k = 0; k < (near ? NEAR : GAPS.length * TURNS); k++) {
@@ -57,19 +62,18 @@ export function placeLabels(g, labels, [left, top, width, height], handles = [])
         u = px + c * (gap + wide / 2) - wide / 2,
         v = py + s * (gap + HIGH / 2) - HIGH / 2;
       let cost = gap / 6 + 1 - ax * c - ay * s - stays;
-      if (u !== between(u, left, width - wide) || v !== between(v, top, height - HIGH)) cost += 99;
+      if (u !== between(u, left, width - wide) || v !== between(v, top, height - HIGH))
+        cost += WORD;
       if (cost >= least) continue;
       for (const [dx, dy, r, heavy] of close)
         if (dx > u - r && dx < u + wide + r && dy > v - r && dy < v + HIGH + r) cost += heavy;
       if (cost < least) [least, x, y, place] = [cost, u, v, k];
     }
-    if (near && least >= WORD) continue;
+    if (near && least > MOST) continue;
     memory.set(key, [place, px, py]);
-    const before = ink.length;
     if (place >= NEAR && !away)
       stroke(g, [at, [between(px, x, wide), between(py, y, HIGH)]], color, 1);
     write(g, text, x + 2, y + 12, color, 12, "left", weight);
-    dots.push(...ink.slice(before).flatMap(dotsOf));
   }
 }
 
@@ -77,23 +81,23 @@ export function placeLabels(g, labels, [left, top, width, height], handles = [])
 const between = (x, low, size) => Math.max(low, Math.min(low + size, x));
 
 /**
- * The dots of a line.
+ * Adds the dots of a line.
+ * @param {Dot[]} dots
  * @param {Ink} ink
  */
-function dotsOf([points, wide, weight]) {
-  /** @type {Dot[]} */
-  const dots = [];
+function mark(dots, [points, wide, weight]) {
+  const step = 7 + wide / 4;
   /** @type {?Pixel} */
   let from = null;
   for (const to of points) {
     if (to) {
       const [x, y] = from ?? to,
-        [dx, dy] = [to[0] - x, to[1] - y],
-        count = Math.min(300, Math.ceil(Math.hypot(dx, dy) / (4 + wide / 4))) || 1;
+        dx = to[0] - x,
+        dy = to[1] - y,
+        count = Math.min(200, Math.ceil(Math.max(Math.abs(dx), Math.abs(dy)) / step)) || 1;
       for (let i = 1; i <= count; i++)
         dots.push([x + (i / count) * dx, y + (i / count) * dy, wide / 2, weight]);
     }
     from = to;
   }
-  return dots;
 }
