@@ -63,7 +63,7 @@ export function placeLabels(g, labels, [left, top, width, height], handles = [])
         v = py + s * (gap + HIGH / 2) - HIGH / 2;
       let cost = gap / 6 + 1 - ax * c - ay * s - stays;
       if (u !== between(u, left, width - wide) || v !== between(v, top, height - HIGH))
-        cost += WORD;
+        cost += 5 * WORD;
       if (cost >= least) continue;
       for (const [dx, dy, r, heavy] of close)
         if (dx > u - r && dx < u + wide + r && dy > v - r && dy < v + HIGH + r) cost += heavy;
