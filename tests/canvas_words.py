@@ -4,14 +4,58 @@ import re
 from dataclasses import dataclass
 
 # The text drawn on each canvas since it was last cleared: its string, size in CSS px, colour, box
-# on the page, the mean colour of the pixels below, and whether an outline was drawn first.
+# on the page, the mean colour of the pixels below, and whether an outline was drawn first. Also the
+# joints, which are the boxes of the shapes that were filled with the colour of a joint, and the
+# links, which are the ends of the lines in their colour.
 RECORD = """
 (() => {
-  const words = new WeakMap(), outlined = new WeakMap();
+  const words = new WeakMap(), outlined = new WeakMap(), joints = new WeakMap();
+  const links = new WeakMap();
+  const kept = (map, {canvas}) => map.get(canvas) ?? map.set(canvas, []).get(canvas);
   const proto = CanvasRenderingContext2D.prototype;
-  const {fillText, strokeText, clearRect} = proto;
+  const {fillText, strokeText, clearRect, fill, stroke, beginPath, ellipse, lineTo, moveTo} = proto;
+  let traced = [];
+  const trace = (g, x, y, r) => {
+    const {a, b, c, d, e, f} = g.getTransform(), size = Math.hypot(a, b);
+    const ratio = g.canvas.width / (g.canvas.clientWidth || g.canvas.width);
+    traced.push([a * x + c * y + e, b * x + d * y + f, r * size].map(value => value / ratio));
+  };
+  proto.beginPath = function () {
+    traced = [];
+    return beginPath.call(this);
+  };
+  proto.ellipse = function (x, y, a, b, ...more) {
+    trace(this, x, y, Math.max(a, b));
+    return ellipse.call(this, x, y, a, b, ...more);
+  };
+  proto.lineTo = function (x, y) {
+    trace(this, x, y, 0);
+    return lineTo.call(this, x, y);
+  };
+  proto.moveTo = function (x, y) {
+    trace(this, x, y, 0);
+    return moveTo.call(this, x, y);
+  };
+  proto.stroke = function (...all) {
+    const link = getComputedStyle(this.canvas).getPropertyValue("--rk-link").trim();
+    if (this.strokeStyle === link.toLowerCase() && this.globalAlpha === 1)
+      kept(links, this).push(traced.slice(-2).flatMap(p => p.slice(0, 2)));
+    return stroke.apply(this, all);
+  };
+  proto.fill = function (...all) {
+    const style = getComputedStyle(this.canvas), color = String(this.fillStyle).toLowerCase();
+    const paint = [1, 2, 3, 4, 5, 6].map(k => style.getPropertyValue(`--rk-joint${k}`).trim());
+    if (traced.length && paint.some(each => each.toLowerCase() === color)) {
+      const [left, top] = [0, 1].map(k => Math.min(...traced.map(p => p[k] - p[2])));
+      const [right, bottom] = [0, 1].map(k => Math.max(...traced.map(p => p[k] + p[2])));
+      kept(joints, this).push([left, top, right - left, bottom - top]);
+    }
+    return fill.apply(this, all);
+  };
   proto.clearRect = function (...box) {
     words.set(this.canvas, []);
+    joints.set(this.canvas, []);
+    links.set(this.canvas, []);
     return clearRect.apply(this, box);
   };
   proto.strokeText = function (text, x, y) {
@@ -36,8 +80,7 @@ RECORD = """
         return sum * 4 / data.length;
       });
     }
-    if (!words.has(this.canvas)) words.set(this.canvas, []);
-    words.get(this.canvas).push({
+    kept(words, this).push({
       text, size: size * d / ratio, color: this.fillStyle, box: [left, top, width, height], ground,
     });
     return fillText.call(this, text, x, y);
@@ -49,12 +92,32 @@ RECORD = """
       kind: canvas.closest(".rk")?.className ?? "",
       paper: getComputedStyle(canvas).getPropertyValue("--rk-paper").trim(),
       width: canvas.clientWidth, height: canvas.clientHeight,
-      words: words.get(canvas) ?? [],
+      words: words.get(canvas) ?? [], joints: joints.get(canvas) ?? [],
+      links: links.get(canvas) ?? [],
+      handles: [...(canvas.closest(".rk-space")?.querySelectorAll("[data-handle]") ?? [])]
+        .filter(node => node.checkVisibility())
+        .map(node => {
+          const [one, all] = [node, canvas].map(each => each.getBoundingClientRect());
+          return [one.left - all.left, one.top - all.top, one.width, one.height];
+        }),
     }));
 })();
 """
+# Moves the sliders of all visible views to place i of n. Each slider goes its own way, so that the
+# places are not all on one line.
+MOVE = """([i, n]) => {
+  for (const view of document.querySelectorAll(".robokin-player"))
+    [...view.querySelectorAll("input[type=range]:not([inert] *)")]
+      .filter(slider => slider.checkVisibility() && !slider.disabled)
+      .forEach((slider, k) => {
+        const share = ((i / (n - 1)) * (k + 1) + 0.3 * k) % 1.0001;
+        slider.value = +slider.min + share * (slider.max - slider.min);
+        slider.dispatchEvent(new Event("input", {bubbles: true}));
+      });
+}"""
 SIZE, CONTRAST = 10, 4.5
 OVERLAP = 1.5  # the overlap allowed for two boxes, in px
+ROUND = 0.15  # the part of the box of a round joint or handle that its corners leave free
 
 
 @dataclass
@@ -91,6 +154,16 @@ def faults(page):
             for other in seen[:k]:
                 if other["text"] != text and reach(word["box"], other["box"]) > OVERLAP:
                     found.append(Fault(text, f"over {other['text']!r}", kind))
+            still = text.startswith("grid ") or word["size"] < 11
+            for name in () if still or "rk-motor" in kind else ("joints", "handles"):
+                for x, y, w, h in canvas[name]:
+                    core = (x + ROUND * w, y + ROUND * h, (1 - 2 * ROUND) * w, (1 - 2 * ROUND) * h)
+                    if reach(word["box"], core) > OVERLAP:
+                        found.append(Fault(text, f"on one of the {name}", kind))
+            # the scale and the compass keep their corners, where an arm or a handle may come; the
+            # names on the parts of a motor belong there
+            if not still and any(crosses(word["box"], link) for link in canvas["links"]):
+                found.append(Fault(text, "on a link", kind))
     return found
 
 
@@ -98,6 +171,15 @@ def reach(one, other):
     """The overlap of two boxes in px; negative if they do not overlap."""
     (x, y, w, h), (u, v, a, b) = one, other
     return min(min(x + w, u + a) - max(x, u), min(y + h, v + b) - max(y, v))
+
+
+def crosses(box, line):
+    """Whether the middle of a link passes through a box."""
+    x, y, w, h = box
+    a, b, c, d = line
+    return any(
+        x < a + k / 50 * (c - a) < x + w and y < b + k / 50 * (d - b) < y + h for k in range(51)
+    )
 
 
 def below(ground, paper):

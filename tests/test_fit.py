@@ -6,8 +6,8 @@ import re
 
 import nbformat
 import pytest
+from canvas_words import MOVE, faults
 from canvas_words import RECORD as WORDS
-from canvas_words import faults
 from conftest import NOTEBOOKS, awake
 from fitting import RECORD as SIZES
 from fitting import SCREEN, sizes, walked
@@ -53,11 +53,30 @@ def test_views_fit_and_their_text_is_readable_on_a_laptop_and_on_a_phone(browser
         page.close()
 
 
+@pytest.mark.parametrize("lab", LABS)
+def test_no_word_hides_another_word_a_link_a_joint_or_a_handle(browser, exported, lab):
+    """At ten places of all sliders, which move at the same time. On a phone, the handles leave little
+    room, so two words in ten pictures of a lab may touch something.
+    """
+    for width, theme, allowed in ((1036, "light", 0), (390, "dark", 2)):
+        page = opened(browser, exported[lab], width, theme)
+        found = []
+        for place in range(10):
+            page.evaluate(MOVE, [place, 10])
+            page.evaluate(NEXT)
+            found += [(place, fault) for fault in faults(page)]
+        assert len(found) <= allowed, f"{width} px: {found}"
+        page.close()
+
+
 def test_planted_faults_on_a_canvas_are_detected(browser):
     page = browser.new_page()
     page.add_init_script(WORDS)
     page.goto(
-        "data:text/html,<style>canvas{--rk-paper:%23ffffff}</style><canvas width=300 height=150>"
+        "data:text/html,<style>canvas{--rk-paper:%23ffffff;--rk-joint2:%23d55e00;"
+        "--rk-link:%234b5563}button{position:absolute;left:200px;top:60px}</style>"
+        "<div class=rk-space style=position:absolute><canvas width=300 height=150></canvas>"
+        "<button data-handle=a>a</button></div>"
     )
     page.evaluate(
         """() => {
@@ -72,6 +91,12 @@ def test_planted_faults_on_a_canvas_are_detected(browser):
           write("outside", 280, 60, 12, "#000000");
           write("first", 10, 100, 12, "#000000");
           write("second", 20, 104, 12, "#000000");
+          g.fillStyle = "#d55e00"; g.beginPath(); g.ellipse(100, 70, 9, 4, 0.5, 0, 7); g.fill();
+          g.strokeStyle = "#4b5563"; g.beginPath(); g.moveTo(120, 140); g.lineTo(180, 110);
+          g.stroke();
+          write("joint", 95, 74, 12, "#000000");
+          write("link", 140, 130, 12, "#000000");
+          write("handle", 205, 75, 12, "#000000");
         }"""
     )
     assert {(fault.text, fault.why.split(" ")[0]) for fault in faults(page)} == {
@@ -80,6 +105,9 @@ def test_planted_faults_on_a_canvas_are_detected(browser):
         ("dark", "contrast"),
         ("outside", "cut"),
         ("second", "over"),
+        ("joint", "on"),
+        ("link", "on"),
+        ("handle", "on"),
     }
     page.evaluate("""() => {
         const g = document.querySelector("canvas").getContext("2d"); g.clearRect(0, 0, 300, 150);

@@ -171,7 +171,8 @@ function drawAxes({g, left, right, top, bottom, x, y}, [low, step, count, decima
 }
 
 /**
- * Draws a dotted line where the gripper is at a via point, with its name where there is room.
+ * Draws a dotted line where the gripper is at a via point, and writes its name above it, at the
+ * right of the name before it.
  * @param {Plot} plot
  * @param {Shown} shown
  */
@@ -180,9 +181,8 @@ function drawVias({g, top, bottom, x}, {motion: {ends}, vias}) {
   vias.forEach((name, k) => {
     const px = x(ends[k + 1]);
     upright(g, px, top, bottom, colors.soft, 1.2, [2, 3]);
-    if (px - before < 22) return;
-    write(g, name, px, top - 4, colors.soft, 11, "center");
-    before = px;
+    before = Math.max(before + 22, px);
+    write(g, name, before, top - 4, colors.soft, 11, "center");
   });
 }
 

@@ -1,13 +1,14 @@
 // Draws an arm in a scene: its links and joints, its path, and its shadow on the floor.
 
 import {movedTo} from "./camera.js";
-import {clear, colors, jointColor, polygon, shape, spot, stroke} from "./canvas.js";
+import {WORD, clear, colors, ink, jointColor, polygon, shape, spot, stroke} from "./canvas.js";
 import {distance, dot, frames, origin, plus, polyline, turned} from "./kinematics.js";
 import {triad} from "./triad.js";
 
 /** @import {PageLink} from "./page.js" */
 /** @import {Camera} from "./camera.js" */
-/** @import {Box, Context, Pixel, Point} from "./canvas.js" */
+/** @import {Context, Pixel, Point} from "./canvas.js" */
+/** @import {Label} from "./labels.js" */
 /** @import {Pen, Shown} from "./scene.js" */
 
 /** @typedef {ReturnType<typeof stood>} Stood  an arm in its place, and the pen that draws it */
@@ -106,17 +107,18 @@ export function drawStood(one) {
 }
 
 /**
- * Draws the frame of the flange, and adds the boxes of its letters to `letters`.
+ * Draws the frame of the flange; returns the letters of its axes.
  * @param {Stood} one
- * @param {Box[]} letters
+ * @returns {Label[]}
  */
-export function drawFlange({g, cam, scene, faded, all, exists}, letters) {
-  if (!exists) return;
+export function drawFlange({g, cam, scene, faded, all, exists}) {
+  if (!exists) return [];
   g.globalAlpha = faded ? 0.4 : 1;
   const flange = all[all.length - 1];
-  triad(g, cam, flange, 0.13 * scene.size, 3, 1, letters);
+  const letters = triad(g, cam, flange, 0.13 * scene.size, 3, 1);
   spot(g, cam.to(origin(flange)), 3.6, colors.hub, colors.path, 1.8);
   g.globalAlpha = 1;
+  return letters;
 }
 
 /**
@@ -255,6 +257,7 @@ function drum(g, cam, p, axis, radius, color) {
     angle = Math.atan2(dy, dx);
   const half = 0.85 * radius * long,
     side = dot(axis, cam.toward) > 0 ? 1 : -1; // `half` is half the drum's length on screen
+  ink.push([[[cx, cy]], 2.4 * radius, WORD]);
   g.save();
   g.translate(cx, cy);
   g.rotate(angle);
@@ -291,5 +294,6 @@ function box(g, cam, p, axis, radius, color) {
   const corners = [0, 1, 2, 3]
     .map(k => angle + (k * Math.PI) / 2)
     .map(/** @returns {Pixel} */ t => [x + r * Math.cos(t), y + r * Math.sin(t)]);
+  ink.push([[[x, y]], 2 * radius, WORD]);
   polygon(g, corners, color, colors.edge, 1.2);
 }

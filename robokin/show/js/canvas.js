@@ -7,6 +7,10 @@
 /**
  * @typedef {[fill: string, edge?: string, width?: number]} Filling  the fill and edge of a shape
  */
+/**
+ * @typedef {[points: (?Pixel)[], width: number, weight: number]} Ink  a line that no label should
+ *   cover; one point is a disc. `weight` says how much it matters
+ */
 /** @typedef {CanvasRenderingContext2D} Context */
 /** @typedef {keyof typeof colors} Color */
 
@@ -50,6 +54,12 @@ export const colors = {
   joint5: "",
   joint6: "",
 };
+
+/** The weight of words, joints and handles, which no label may cover. */
+export const WORD = 200;
+
+/** @type {Ink[]}  what has been drawn since a canvas was cleared */
+export const ink = [];
 
 let family = "sans-serif"; // the font of text; `readColors` sets it, too
 
@@ -97,6 +107,7 @@ export function prepared(canvas) {
   const g = /** @type {Context} */ (canvas.getContext("2d"));
   g.setTransform(ratio, 0, 0, ratio, 0, 0);
   g.clearRect(0, 0, w, h);
+  ink.length = 0;
   g.lineCap = g.lineJoin = "round";
   return [g, w, h];
 }
@@ -120,6 +131,9 @@ export function replaceStill(root, frame, ...canvases) {
  * @param {number[]} [dash]
  */
 export function stroke(g, points, color, width, dash = []) {
+  // a label may cover a halo and a hatching
+  if (!color.startsWith(colors.paper) && (width > 1 || isSolid(color)))
+    ink.push([points, width, Math.min(9, width)]);
   g.strokeStyle = color;
   g.lineWidth = width;
   g.setLineDash(dash);
@@ -173,8 +187,13 @@ export function shape(g, draw, fill, edge, width) {
 /**
  * @type {(g: Context, points: Pixel[], ...look: Filling) => void}
  */
-export const polygon = (g, points, ...look) =>
+export function polygon(g, points, ...look) {
+  ink.push([[...points, points[0]], 1, isSolid(look[0]) ? 4 : 1]);
   shape(g, () => points.forEach(p => g.lineTo(...p)), ...look);
+}
+
+/** @param {string | CanvasGradient} fill */
+const isSolid = fill => typeof fill !== "string" || fill.length < 8;
 
 /**
  * Draws a disc.
@@ -185,8 +204,20 @@ export const polygon = (g, points, ...look) =>
  * @param {string} [edge]
  * @param {number} [width]
  */
-export const spot = (g, [x, y], radius, fill, edge = colors.paper, width = 1.5) =>
+export function spot(g, [x, y], radius, fill, edge = colors.paper, width = 1.5) {
+  if (isSolid(fill)) ink.push([[[x, y]], 2 * radius, 9]);
   shape(g, () => g.arc(x, y, radius, 0, 2 * Math.PI), fill, edge, width);
+}
+
+/** The ink of words in a box. @type {(box: Box) => Ink} */
+export const wordInk = ([x, y, w, h]) => [
+  [
+    [x + h / 2, y + h / 2],
+    [x + Math.max(h / 2, w - h / 2), y + h / 2],
+  ],
+  h,
+  WORD,
+];
 
 /**
  * Writes text with an outline, so that it is readable over lines.
@@ -196,7 +227,7 @@ export const spot = (g, [x, y], radius, fill, edge = colors.paper, width = 1.5) 
  * @param {number} y
  * @param {string} [color]
  * @param {number} [size]
- * @param {CanvasTextAlign} [align]
+ * @param {"left" | "center" | "right"} [align]
  * @param {string | number} [weight]
  */
 export function write(g, text, x, y, color = colors.ink, size = 12, align = "left", weight = "") {
@@ -207,6 +238,9 @@ export function write(g, text, x, y, color = colors.ink, size = 12, align = "lef
   g.strokeText(text, x, y);
   g.fillStyle = color;
   g.fillText(text, x, y);
+  const wide = g.measureText(text).width,
+    left = x - {left: 0, center: 0.5, right: 1}[align] * wide;
+  ink.push(wordInk([left, y - 0.9 * size, wide, 1.2 * size]));
 }
 
 /**

@@ -97,7 +97,7 @@ function clearanceExplorer(stage, data) {
       stage.name(fill(says.scene, {title: data.title, says: `${text.where} ${text.says}`}));
       canvas.setAttribute("aria-label", text.curve);
       stage.scene.things = thingsOf(data, state, found);
-      return [armOf(stage, data, state, found)];
+      return [armOf(data, state, found)];
     },
     [canvas],
     () => {
@@ -205,18 +205,16 @@ function thingsOf({arm, q, target}, {obstacle, vias}, found) {
 
 /**
  * The arm at the current moment, with the area that its levers sweep.
- * @param {Stage} stage
  * @param {ClearanceExplorer} data
  * @param {State} state
  * @param {Found} found
  * @returns {Explored}
  */
-function armOf(stage, {arm: {name, chain}, q, distance}, state, found) {
-  const handles = stage.handles.place;
+function armOf({arm: {name, chain}, q, distance}, state, found) {
   /** @type {Draw} */
   const circle = (g, {to, scale}) =>
     spot(g, to(state.obstacle), distance * scale, clear(colors.ghost, 0.25), colors.ghost, 1);
-  if (found.why !== undefined) return {name, chain, q, faded: true, handles, under: circle};
+  if (found.why !== undefined) return {name, chain, q, faded: true, under: circle};
   const {motion, now} = found,
     {path} = motion;
   return {
@@ -227,7 +225,6 @@ function armOf(stage, {arm: {name, chain}, q, distance}, state, found) {
       {q: path[0], past: false},
       {q: path[path.length - 1], past: true},
     ],
-    handles,
     under(g, camera) {
       circle(g, camera);
       drawSwept(found)(g, camera);

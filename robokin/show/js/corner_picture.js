@@ -104,14 +104,7 @@ export function cornerPicture(canvas, data, {right, up}, seen, ring) {
       ];
       if (arm.near)
         labels.push({text: arm.near.text, at: cam.to(arm.near.place), color: colors.near});
-      const lines = [arm.trace ?? [], between(data)].flat().flatMap(p => (p ? [p] : []));
-      placeLabels(
-        g,
-        labels,
-        lines.map(cam.to),
-        [4, 4, w - 8, h - 36],
-        [[x - half, y - half, 2 * half, 2 * half]],
-      );
+      placeLabels(g, labels, [4, 4, w - 8, h - 36], [[x - half, y - half, 2 * half, 2 * half]]);
       return true;
     },
   };
@@ -138,16 +131,6 @@ function drawCorner(g, {to}, {start, via, goal}, {trace = [], tail = [], near}) 
   }
   spot(g, at, 3.5, colors.ink);
 }
-
-/**
- * Points on the sharp corner, which labels must not cover.
- * @param {MotionPage} data
- * @returns {Point[]}
- */
-const between = ({start, via, goal}) =>
-  [start, goal].flatMap(({place}) =>
-    Array.from({length: 100}, (_, k) => plus(via.place, plus(place, via.place, -1), k / 100)),
-  );
 
 /**
  * Draws a scale bar. Its length is 1, 2 or 5 times a power of ten.

@@ -122,7 +122,7 @@ function crossingExplorer(stage, data) {
     stage.scene.things = named(data, state, found);
     canvas.setAttribute("aria-label", fill(words.curve, {x: controls[k].name, y: data.eliminated}));
     now = found;
-    return [posed(stage.handles.place, data, state, found)];
+    return [posed(data, state, found)];
   };
   stage.run(answer, [canvas], () => {
     shown = now && drawCurves(canvas, data, state, now);

@@ -3,7 +3,7 @@
 // elbow is drawn a little outside it, and that of the left elbow a little inside it.
 
 import {fill} from "./blanks.js";
-import {clear, colors, spot, stroke, write} from "./canvas.js";
+import {clear, colors, spot, stroke} from "./canvas.js";
 import {movedTo} from "./crossing.js";
 import {singularities} from "./geometries.js";
 import {point} from "./mark.js";
@@ -34,12 +34,11 @@ export function named({rows, words, arm}, {tip}, {rows: q, elbows, which}) {
 
 /**
  * The arm with the elbow that the formula returns. The other elbow is drawn faintly.
- * @param {(cam: Camera) => Box[]} place  of the handles
  * @param {CrossingExplorer} data
  * @param {State} state
  * @param {Found} found
  */
-export function posed(place, data, state, found) {
+export function posed(data, state, found) {
   const {arm, divisor, words} = data,
     {rows, which} = found,
     chosen = divisor === null ? 0 : which;
@@ -51,14 +50,19 @@ export function posed(place, data, state, found) {
     ghosts: rows.filter((_, k) => k !== chosen).map(q => ({q, past: false})),
     /** @type {(g: Context, cam: Camera) => void} */
     under: (g, cam) => drawTracks(g, cam, data, state, found),
-    /** @type {(cam: Camera) => Box[]} */
-    handles(cam) {
-      const taken = place(cam);
-      if (divisor !== null) taken.push(lineBox(cam, data));
-      return taken;
-    },
+    labels:
+      divisor === null
+        ? []
+        : [
+            {
+              text: fill(words.line, lineOf(data)),
+              at: zeroLine(data)[0],
+              color: colors.soft,
+              weight: "",
+            },
+          ],
     /** @type {(g: Context, cam: Camera) => void} */
-    over: (g, cam) => drawMarks(g, cam, data, found),
+    over: (g, cam) => drawMarks(g, cam, found),
   };
 }
 
@@ -83,17 +87,6 @@ function zeroLine({arm, divisor}) {
     at[1 - k] += share * reach;
     return at;
   });
-}
-
-/**
- * The box of the name of that line, at its end.
- * @param {Camera} cam
- * @param {CrossingExplorer} data
- * @returns {Box}
- */
-function lineBox(cam, data) {
-  const [x, y] = cam.to(zeroLine(data)[0]);
-  return data.divisor ? [x - 50, y - 20, 50, 16] : [x + 4, y - 2, 50, 16];
 }
 
 /**
@@ -140,17 +133,12 @@ function aside([x, y], [x0, y0], by) {
 }
 
 /**
- * Draws the places where the elbows meet, the elbow that the formula returns, and the name of the
- * line where it divides by 0.
+ * Draws the places where the elbows meet, and the elbow that the formula returns.
  * @param {Context} g
  * @param {Camera} cam
- * @param {CrossingExplorer} data
  * @param {Found} found
  */
-function drawMarks(g, cam, data, {meets, formula}) {
+function drawMarks(g, cam, {meets, formula}) {
   for (const {at} of meets) spot(g, cam.to(at), 5, colors.paper, colors.ink, 1.6);
   if (formula) spot(g, cam.to(formula), 6, colors.ink);
-  if (data.divisor === null) return;
-  const [x, y] = lineBox(cam, data);
-  write(g, fill(data.words.line, lineOf(data)), x + 2, y + 12, colors.soft);
 }

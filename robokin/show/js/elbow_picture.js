@@ -7,6 +7,7 @@ import {camera} from "./camera.js";
 import {
   clear,
   colors,
+  ink,
   jointColor,
   number,
   polygon,
@@ -62,6 +63,7 @@ export function elbowPicture(data) {
       const pen = {g, cam, scene, space},
         places = placesOf(cam, data, now);
       drawFloor(pen);
+      ink.length = 0;
       drawBelow(pen, data, now, places);
       const {q, past} = now.elbows[now.elbow] ?? {q: data.arm.limits.map(() => NaN), past: []};
       drawStood(stood(pen, {name: "", chain: data.arm.chain, q, past}));
@@ -69,7 +71,7 @@ export function elbowPicture(data) {
       const grid = +(scene.grid / scene.unit.size).toPrecision(6);
       write(g, `grid ${grid} ${scene.unit.name}`, 10, h - 8, colors.soft, 12);
       const labels = labelsOf(data, now, places, w >= WIDE);
-      placeLabels(g, labels, busy(places, now), [4, 4, w - 8, h - 28], now.handles(cam));
+      placeLabels(g, labels, [4, 4, w - 8, h - 28], now.handles(cam));
       return true;
     },
   };
@@ -94,23 +96,6 @@ const on = ([x, y], angle, radius) => [x + radius * Math.cos(angle), y - radius 
 
 /** A place between two others. @type {(a: Pixel, b: Pixel, share?: number) => Pixel} */
 const along = (a, b, share = 0.5) => [a[0] + share * (b[0] - a[0]), a[1] + share * (b[1] - a[1])];
-
-/**
- * Pixels that labels must avoid, on the lines and on both edges of the links.
- * @param {Places} places
- * @param {Seen} now
- */
-function busy({top, joint2, point, corner, elbows}, {elbow}) {
-  /** @type {(shift: number, ...way: Pixel[]) => Pixel[][]} */
-  const lines = (shift, ...way) =>
-    way.slice(1).map((p, k) => [way[k], p].map(([x, y]) => [x + shift, y + shift]));
-  const strong = elbows.length ? [joint2, elbows[elbow], point] : [];
-  return [
-    ...lines(0, joint2, corner, point, joint2),
-    ...elbows.flatMap(k => lines(0, joint2, k, point)),
-    ...[-5, 5].flatMap(shift => [...lines(shift, top, joint2), ...lines(shift, ...strong)]),
-  ].flatMap(([a, b]) => Array.from({length: 13}, (_, i) => along(a, b, i / 12)));
-}
 
 /**
  * Draws the column, the circles on which an elbow lies, u and w, and the other elbow.

@@ -84,7 +84,6 @@ function jointExplorer(stage, data) {
         framed: true,
         glass: data.wrist !== null,
         over: (g, camera) => drawRings(g, camera, arm.chain, rings, q, stage.handles.shows),
-        handles: stage.handles.place,
         axes: axes.on(),
         ellipsoid,
       },

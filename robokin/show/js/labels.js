@@ -1,48 +1,103 @@
-// Labels next to their points.
+// Words on a canvas: each label takes the first free place around its point, so that it hides
+// nothing that is drawn there.
 
-import {font, hit, write} from "./canvas.js";
+import {WORD, font, ink, stroke, wordInk, write} from "./canvas.js";
 
-/** @import {Box, Context, Pixel} from "./canvas.js" */
-
-/** @typedef {{text: string, at: Pixel, color: string, weight?: string}} Label */
+/** @import {Box, Context, Ink, Pixel} from "./canvas.js" */
 
 /**
- * Writes each label next to its point, where it covers as little as possible of other labels, lines
- * and the edge.
+ * @typedef {object} Label
+ * @property {string} text
+ * @property {Pixel} at  its point
+ * @property {string} color
+ * @property {string} [weight]
+ * @property {Pixel} [away]  the preferred direction from its point; without it, the label prefers
+ *   the upper right, and a distant label has a line to its point
+ * @property {boolean} [near]  whether to leave it out if there is no free place close to its point
+ */
+
+/** @typedef {[x: number, y: number, r: number, weight: number]} Dot  a part of the ink */
+
+const GAPS = [5, 14, 26, 40, 58, 84], // px between a point and its label
+  TURNS = 12, // the number of directions
+  NEAR = 3 * TURNS, // the number of places without a line
+  HIGH = 16, // px: the height of a label
+  MOST = 40, // the cost above which a label with `near` is left out
+  STAYS = 1.5, // the cost that a label saves if it stays where it was in the last picture
+  JUMP = 40; // px: if its point has moved farther, a label takes a new place
+/** @type {WeakMap<Context, Map<string, [place: number, x: number, y: number]>>} */
+const memories = new WeakMap();
+
+/**
+ * Writes the labels of a picture, after everything else is drawn in it.
  * @param {Context} g
  * @param {Label[]} labels
- * @param {Pixel[]} taken
  * @param {Box} room
- * @param {Box[]} written  other texts, which no label covers
+ * @param {Box[]} [handles]  the boxes of the handles, which no label covers
  */
-export function placeLabels(g, labels, taken, [left, top, width, height], written) {
-  const done = [...written];
-  for (const label of labels) {
-    g.font = font(12, label.weight);
-    const w = g.measureText(label.text).width + 4,
-      h = 16,
-      [px, py] = label.at;
-    let best = [NaN, NaN, NaN]; // the lowest cost, and its left and top
-    for (const gap of [5, 14, 26, 40])
-      for (let k = 0; k < 12; k++) {
-        const c = Math.cos((k * Math.PI) / 6),
-          s = -Math.sin((k * Math.PI) / 6);
-        const x = px + c * (gap + w / 2) - w / 2,
-          y = py + s * (gap + h / 2) - h / 2;
-        let cost = gap / 6 + (1 - c) / 2 + (1 + s) / 2;
-        for (const [qx, qy] of taken)
-          if (qx > x - 3 && qx < x + w + 3 && qy > y - 2 && qy < y + h + 2) cost += 3;
-        if (hit([x, y, w, h], done)) cost += 100;
-        cost +=
-          3 *
-          (Math.max(0, left - x) +
-            Math.max(0, x + w - left - width) +
-            Math.max(0, top - y) +
-            Math.max(0, y + h - top - height));
-        if (!(cost >= best[0])) best = [cost, x, y];
-      }
-    const [, x, y] = best;
-    done.push([x, y, w, h]);
-    write(g, label.text, x + 2, y + 12, label.color, 12, "left", label.weight);
+export function placeLabels(g, labels, [left, top, width, height], handles = []) {
+  const memory = memories.get(g) ?? new Map();
+  memories.set(g, memory);
+  ink.push(...handles.map(wordInk));
+  /** @type {Dot[]} */
+  const dots = [];
+  let marked = 0; // the number of lines in `ink` whose dots are known
+  for (const {text, at, color, weight, away, near} of labels) {
+    while (marked < ink.length) mark(dots, ink[marked++]);
+    g.font = font(12, weight);
+    const wide = g.measureText(text).width + 4,
+      key = text.replace(/(?<![a-z])[\d.]+/gi, ""), // without numbers, which change
+      [last, ...from] = memory.get(key) ?? [-1, 0, 0],
+      [ax, ay] = away ?? [0.5, -0.5],
+      [px, py] = [between(at[0], left, width), between(at[1], top, height)],
+      close = dots.filter(
+        ([x, y, r]) => Math.abs(x - px) < wide + r + 90 && Math.abs(y - py) < r + 110,
+      );
+    let [least, x, y, place] = [Infinity, 0, 0, 0];
+    for (let k = 0; k < (near ? NEAR : GAPS.length * TURNS); k++) {
+      const gap = GAPS[Math.floor(k / TURNS)],
+        turn = (2 * Math.PI * k) / TURNS,
+        [c, s] = [Math.cos(turn), -Math.sin(turn)],
+        stays = k === last && Math.hypot(from[0] - px, from[1] - py) < JUMP ? STAYS : 0,
+        u = px + c * (gap + wide / 2) - wide / 2,
+        v = py + s * (gap + HIGH / 2) - HIGH / 2;
+      let cost = gap / 6 + 1 - ax * c - ay * s - stays;
+      if (u !== between(u, left, width - wide) || v !== between(v, top, height - HIGH))
+        cost += 5 * WORD;
+      if (cost >= least) continue;
+      for (const [dx, dy, r, heavy] of close)
+        if (dx > u - r && dx < u + wide + r && dy > v - r && dy < v + HIGH + r) cost += heavy;
+      if (cost < least) [least, x, y, place] = [cost, u, v, k];
+    }
+    if (near && least > MOST) continue;
+    memory.set(key, [place, px, py]);
+    if (place >= NEAR && !away)
+      stroke(g, [at, [between(px, x, wide), between(py, y, HIGH)]], color, 1);
+    write(g, text, x + 2, y + 12, color, 12, "left", weight);
+  }
+}
+
+/** @type {(x: number, low: number, size: number) => number} */
+const between = (x, low, size) => Math.max(low, Math.min(low + size, x));
+
+/**
+ * Adds the dots of a line.
+ * @param {Dot[]} dots
+ * @param {Ink} ink
+ */
+function mark(dots, [points, wide, weight]) {
+  const step = 7 + wide / 4;
+  /** @type {?Pixel} */
+  let from = null;
+  for (const to of points) {
+    if (to) {
+      const [x, y] = from ?? to,
+        dx = to[0] - x,
+        dy = to[1] - y,
+        count = Math.min(200, Math.ceil(Math.max(Math.abs(dx), Math.abs(dy)) / step)) || 1;
+      for (let i = 1; i <= count; i++)
+        dots.push([x + (i / count) * dx, y + (i / count) * dy, wide / 2, weight]);
+    }
+    from = to;
   }
 }

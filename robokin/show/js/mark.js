@@ -23,7 +23,7 @@ export const mark = {
     }
   },
   /** Draws the points, and the names of points and balls. */
-  above({g, cam}, marks, {labels}) {
+  above({g, cam}, marks, labels) {
     for (const {name, at, radius} of marks) {
       const place = cam.to(at);
       if (!radius) spot(g, place, 3.5, colors.path);

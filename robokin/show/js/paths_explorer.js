@@ -119,7 +119,7 @@ function pathsExplorer(stage, data) {
     stage.say(says);
     stage.name(fill(words.scene, {name: arm.name, ...inWords(data, state, ways), says}));
     stage.scene.things = [point(words.start, data.start), point(words.goal, state.place)];
-    return [armOn(stage, data, state, ways, chosen)];
+    return [armOn(data, state, ways, chosen)];
   });
 }
 
@@ -177,14 +177,13 @@ function rowOf(ways, wanted) {
 
 /**
  * The arm on its path, drawn in front of all paths. If there is no path, it is at the start.
- * @param {Stage} stage
  * @param {PathsExplorer} data
  * @param {State} state
  * @param {(?Way)[]} ways
  * @param {number} chosen
  * @returns {Explored}
  */
-function armOn(stage, data, {time}, ways, chosen) {
+function armOn(data, {time}, ways, chosen) {
   const {name, chain} = data.arm,
     way = ways[chosen];
   return {
@@ -192,7 +191,6 @@ function armOn(stage, data, {time}, ways, chosen) {
     chain,
     q: way ? postureAt(data, way, time) : postures(data, [data.start])[0],
     faded: !way,
-    handles: stage.handles.place,
     under: (g, camera) =>
       ways.forEach((each, k) => each && drawPath(g, camera, each, LETTERS[k], k === chosen)),
     over: (g, {to}) =>

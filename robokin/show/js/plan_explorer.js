@@ -126,7 +126,7 @@ function planExplorer(stage, root, id, data) {
       const {words, direct} = now.shown;
       stage.say([state.way ? "" : words, direct?.says || ""].join(" ").trim());
       stage.scene.things = thingsOf(state, now.shown);
-      return [{...armAt(arm, state, now), handles: stage.handles.place}];
+      return [armAt(arm, state, now)];
     },
     [cube.canvas],
     () => {

@@ -1,6 +1,6 @@
 // Draws a plan in the picture of its explorer, in the plane of the arm.
 
-import {clear, colors, polygon, spot, stroke, write} from "./canvas.js";
+import {clear, colors, polygon, spot, stroke} from "./canvas.js";
 import {polyline} from "./kinematics.js";
 
 /** @import {PageLink} from "./page.js" */
@@ -8,6 +8,8 @@ import {polyline} from "./kinematics.js";
 /** @import {ThreeLeverArm} from "./levers.js" */
 /** @import {Now, Shown, State} from "./plan_explorer.js" */
 /** @import {Draw} from "./scene.js" */
+
+const QUADRILATERALS = /** @type {const} */ (["joint3", "joint2"]);
 
 /**
  * The arm at the current moment of the motion, with the drawings below and above it.
@@ -26,6 +28,11 @@ export function armAt({name, chain}, state, {shown, moment}) {
     ghosts: k > 0 ? [end, {q: state.q, past: false}] : [end],
     under: drawBelow(chain, shown, state),
     over: drawAbove(shown, state),
+    labels: (shown.direct?.quadrilaterals ?? []).map((corners, k) => ({
+      text: ["AK", "BA"][k],
+      at: [mean(corners, 0), mean(corners, 1), 0],
+      color: colors[QUADRILATERALS[k]],
+    })),
   };
 }
 
@@ -43,10 +50,8 @@ const drawBelow =
     /** @type {(points: number[][]) => Pixel[]} */
     const flat = points => points.map(([x, y]) => to([x, y, 0]));
     direct?.quadrilaterals.forEach((corners, k) => {
-      const color = [colors.joint3, colors.joint2][k],
-        points = flat(corners);
-      polygon(g, points, clear(color, 0.12), color, 1.2);
-      write(g, ["AK", "BA"][k], mean(points, 0), mean(points, 1), color, 12, "center", "600");
+      const color = colors[QUADRILATERALS[k]];
+      polygon(g, flat(corners), clear(color, 0.12), color, 1.2);
     });
     const color = kept ? colors.accent : colors.alarm;
     stroke(
@@ -63,7 +68,7 @@ const drawBelow =
     );
   };
 
-/** @type {(points: Pixel[], k: number) => number} */
+/** @type {(points: number[][], k: number) => number} */
 const mean = (points, k) => points.reduce((sum, p) => sum + p[k], 0) / points.length;
 
 /**

@@ -45,14 +45,15 @@ export function rotationPicture(data) {
       cam = fitted(picture.view, [14, 14, Math.max(1, w - 28), Math.max(1, h - 28)]);
       canvas.setAttribute("aria-label", spoken(scene, now.alt));
       stroke(g, [low, high].map(cam.to), colors.soft, 1.4, [8, 3, 2, 3]);
-      const arrows = arrowsOf(now),
-        taken = [...drawCircle(g, cam, now), ...arrows.flatMap(each => drawArrow(g, cam, each))];
+      const arrows = arrowsOf(now);
+      drawCircle(g, cam, now);
+      for (const arrow of arrows) drawArrow(g, cam, arrow);
       spot(g, cam.to([0, 0, 0]), 3.5, colors.ink);
       write(g, scale, 10, h - 8, colors.soft, 12);
-      const written = [...now.handles(cam), ...compass(g, cam, [w - 34, h - 34])],
-        labels = arrows.map(({tip, name, color}) => ({text: name, at: cam.to(tip), color}));
+      compass(g, cam, [w - 34, h - 34]);
+      const labels = arrows.map(({tip, name, color}) => ({text: name, at: cam.to(tip), color}));
       labels.push({text: "n", at: cam.to(high), color: colors.soft});
-      placeLabels(g, labels, taken, [4, 4, w - 8, h - 28], written);
+      placeLabels(g, labels, [4, 4, w - 8, h - 28], now.handles(cam));
       return true;
     },
   };
@@ -78,7 +79,7 @@ export const onCircle = ({foot, side, quarter}, angle, share = 1) =>
 
 /**
  * Draws the circle, its radii to v, to q v q* and halfway between, the two halves of the angle, and
- * the line along the axis from the circle to q v; returns pixels on these lines.
+ * the line along the axis from the circle to q v.
  * @param {Context} g
  * @param {Camera} cam
  * @param {Products} now
@@ -104,21 +105,19 @@ function drawCircle(g, {to}, now) {
   const spiral = turn => 0.4 + turn / 60;
   stroke(g, arc(0, angle / 2, spiral), colors.near, 3);
   stroke(g, arc(angle / 2, angle, spiral), colors.accent, 3);
-  return [...circle, ...radii.flat(), ...drop];
 }
 
 /**
- * Draws an arrow from the origin; returns pixels on it.
+ * Draws an arrow from the origin.
  * @param {Context} g
  * @param {Camera} cam
  * @param {Arrow} arrow
- * @returns {Pixel[]}
  */
 function drawArrow(g, {to}, {tip, color}) {
   const [from, end] = [to([0, 0, 0]), to(tip)],
     [dx, dy] = [end[0] - from[0], end[1] - from[1]],
     long = Math.sqrt(dx * dx + dy * dy);
-  if (long < 1) return [];
+  if (long < 1) return;
   const head = Math.min(12, long),
     [ux, uy] = [dx / long, dy / long];
   /** @type {(back: number, aside: number) => Pixel} */
@@ -126,5 +125,4 @@ function drawArrow(g, {to}, {tip, color}) {
   stroke(g, [from, point(head, 0)], colors.paper, 5);
   stroke(g, [from, point(head, 0)], color, 3);
   polygon(g, [end, point(head, head / 2.4), point(head, -head / 2.4)], color);
-  return Array.from({length: 13}, (_, i) => point((long * i) / 12, 0));
 }

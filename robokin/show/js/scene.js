@@ -2,7 +2,7 @@
 
 import {drawFlange, drawRods, drawShadow, drawStood, stood} from "./arm_picture.js";
 import {camera} from "./camera.js";
-import {clear, colors, font, hit, polygon, prepared, stroke, tiled, write} from "./canvas.js";
+import {clear, colors, ink, polygon, prepared, stroke, tiled, write} from "./canvas.js";
 import {frames, origin} from "./kinematics.js";
 import {kinds} from "./kinds.js";
 import {placeLabels} from "./labels.js";
@@ -34,7 +34,8 @@ import {compass} from "./triad.js";
  * @property {boolean} [glass]  whether to draw it translucent
  * @property {number[]} [past]  the joints that exceed a limit
  * @property {string} [row]  the row of `ik` to which the posture belongs
- * @property {{text: string, at: Point, color: string}[]} [labels]  bold labels at points
+ * @property {(Omit<Label, "at"> & {at: Point})[]} [labels]  labels at points, bold unless they
+ *   say otherwise
  * @property {Draw} [under]  draws anything else below the arm
  * @property {Draw} [over]  draws anything else above it
  * @property {(cam: Camera) => Box[]} [handles]  the boxes of its handles, which no label covers
@@ -45,9 +46,6 @@ import {compass} from "./triad.js";
  * @typedef {{g: Context, cam: Camera, scene: Scene, space: Space}} Pen
  */
 /**
- * The labels to write, and the pixels that they should not cover.
- * @typedef {{labels: Label[], taken: Pixel[]}} Labels
- */
 /**
  * How one kind of thing is drawn. T is its page data. `below` and `above` are called once, with all
  * things of the kind.
@@ -60,7 +58,7 @@ import {compass} from "./triad.js";
  * @typedef {{
  *   seen(thing: Now<T>): Point[],
  *   below(pen: Pen, things: Now<T>[]): void,
- *   above(pen: Pen & Pick<Shown, "near">, things: Now<T>[], labels: Labels): void,
+ *   above(pen: Pen & Pick<Shown, "near">, things: Now<T>[], labels: Label[]): void,
  * }} Kind
  */
 
@@ -244,71 +242,45 @@ function drawSpace(pen, arms, [x, y, w, h], named) {
   /** @type {(kind: string) => Now<PageThing>[]} */
   const only = kind => scene.things.filter(thing => thing.kind === kind);
   const sunk = all.filter(one => one.dips);
+  let before = ink.length;
   drawFloor(pen);
+  ink.length = before; // labels may cover the floor and the shadows
   for (const one of sunk) drawRods(one);
+  before = ink.length;
   if (sunk.length) drawFloor(pen, true);
   if (pen.space.spatial) all.forEach(drawShadow);
+  ink.length = before;
   for (const kind in KINDS) KINDS[kind].below(pen, only(kind));
   [...all].sort((p, q) => p.depth - q.depth).forEach(drawStood);
-  /** @type {Labels} */
-  const found = {labels: [], taken: []};
-  for (const kind in KINDS) KINDS[kind].above({...pen, near: first.near}, only(kind), found);
-  /** @type {Box[]} */
-  const written = named ? [] : [[x + w - 95, y, 95, 24]]; // the clock
-  for (const one of all) drawFlange(one, written);
-  written.push(...all.flatMap(one => one.handles?.(one.cam) ?? []));
-  written.push(...compass(g, cam, [x + w - 34, y + h - 34]));
-  if (first.row && arms.length === 1) written.push(writeRow(g, first.row, [x, y + h], written));
-  for (const {
-    cam: {to},
-    joints,
-    past = [],
-  } of all)
-    for (const j of past)
-      found.labels.push({
-        text: `q${j + 1} past its limit`,
-        at: to(origin(joints[j])),
-        color: colors.alarm,
-        weight: "600",
-      });
-  for (const {cam, labels = []} of all)
-    for (const label of labels) found.labels.push({...label, at: cam.to(label.at), weight: "600"});
+  /** @type {Label[]} */
+  const labels = all.flatMap(({cam, joints, past = []}) =>
+    past.map(j => ({
+      text: `q${j + 1} past its limit`,
+      at: cam.to(origin(joints[j])),
+      color: colors.alarm,
+      weight: "600",
+    })),
+  );
+  labels.push(...all.flatMap(drawFlange));
+  for (const kind in KINDS) KINDS[kind].above({...pen, near: first.near}, only(kind), labels);
+  compass(g, cam, [x + w - 34, y + h - 34]);
+  if (named) write(g, first.name, x + 10, y + 18, colors.ink, 13, "left", "600");
+  if (arms.some(arm => arm.faded)) {
+    const at = /** @type {Pixel} */ ([x + w / 2, y]);
+    labels.push({text: "no solution here", at, color: colors.alarm, weight: "600", away: [0, 1]});
+  }
+  if (first.row && arms.length === 1) {
+    const at = /** @type {Pixel} */ ([x + 3, y + h - 22]);
+    labels.push({text: first.row, at, color: colors.ink, away: [1, -1], near: true});
+  }
+  for (const {cam, labels: own = []} of all)
+    for (const label of own) labels.push({weight: "600", ...label, at: cam.to(label.at)});
   placeLabels(
     g,
-    found.labels,
-    [...all.flatMap(one => one.trace.filter(p => p !== null).map(one.cam.to)), ...found.taken],
+    labels,
     [x + 4, y + 24, w - 8, h - 46],
-    written,
+    all.flatMap(one => one.handles?.(one.cam) ?? []),
   );
-  if (named) write(g, first.name, x + 10, y + 18, colors.ink, 13, "left", "600");
-  if (arms.some(arm => arm.faded))
-    write(
-      g,
-      "no solution here",
-      x + w / 2,
-      y + (named ? 40 : 22),
-      colors.alarm,
-      14,
-      "center",
-      "600",
-    );
-}
-
-/**
- * Writes the row of `ik` in a corner, above what is already written there, and returns its box.
- * @param {Context} g
- * @param {string} row
- * @param {Pixel} corner  the lower left one
- * @param {Box[]} written
- */
-function writeRow(g, row, [x, y], written) {
-  g.font = font(12);
-  const wide = g.measureText(row).width;
-  /** @type {(up: number) => Box} */
-  const box = up => [x + 10, y - 36 - up, wide, 16];
-  const up = [0, 16, 32, 48].find(up => !hit(box(up), written)) ?? 0;
-  write(g, row, x + 10, y - 24 - up, colors.ink, 12);
-  return box(up);
 }
 
 /**

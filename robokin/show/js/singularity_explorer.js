@@ -63,7 +63,7 @@ function singularityExplorer(stage, data) {
     [{low, high, step}] = controls,
     places = Array.from({length: Math.round((high - low) / step) + 1}, (_, k) => low + k * step),
     curveOf = curves(data, places),
-    armAt = armOf(stage, data);
+    armAt = armOf(data);
   /** @type {State} */
   const state = [low, 0];
   /** @type {Change} */
@@ -112,11 +112,10 @@ function singularityExplorer(stage, data) {
 /**
  * Returns a function that maps a posture and a miss to the arm with its line: axes 4 and 6, and the
  * ring of joint 4, whose spoke turns with the joint.
- * @param {Stage} stage
  * @param {SingularityExplorer} data
  * @returns {(q: number[], miss: number) => Explored}
  */
-function armOf(stage, data) {
+function armOf(data) {
   const {name, chain, reach} = data.arm,
     [{low, high}] = data.controls,
     rings = ringsOf(chain, reach);
@@ -127,7 +126,6 @@ function armOf(stage, data) {
       chain,
       q,
       axes: [JOINT, JOINT + 2],
-      handles: stage.handles.place,
       under: (g, {to}) => stroke(g, ends.map(to), colors.path, 1.6, [6, 4]),
       over: (g, camera) => drawRings(g, camera, chain, rings, q, j => j === JOINT),
     };

@@ -12,7 +12,7 @@ import {range} from "./sliders.js";
 /** @import {Control, PageExplorer} from "./page.js" */
 /** @import {Context} from "./canvas.js" */
 /** @import {Camera} from "./camera.js" */
-/** @import {Shown} from "./scene.js" */
+/** @import {Draw, Shown} from "./scene.js" */
 
 /**
  * An arm of an explorer; the first one shows the axes of all its joints or of those listed, and the
@@ -46,12 +46,14 @@ export function stageOf(root, data) {
     canvas,
     camera,
     hold: view.hold,
-    /** @param {Explored[]} arms */
-    draw(arms) {
-      const room = view.draw(state.view, arms, "");
-      if (room)
-        drawAids(/** @type {Context} */ (canvas.getContext("2d")), camera(), arms[0], scene.size);
-      return room;
+    /** @type {(arms: Explored[]) => boolean} */
+    draw([arm, ...more]) {
+      /** @type {Draw} */
+      const over = (g, cam) => {
+        arm.over?.(g, cam);
+        drawAids(g, cam, arm, scene.size);
+      };
+      return view.draw(state.view, [{...arm, over, handles: stage.handles.place}, ...more], "");
     },
   });
   orbit(canvas, scene, state, stage.ask);

@@ -21,15 +21,10 @@ export const target = {
     stroke(g, route, clear(colors.soft, 0.55), 1, [7, 5]);
   },
   /** Draws the frames, their names, and the distance of the path from via. */
-  above({g, cam, scene, near}, targets, {labels, taken}) {
+  above({g, cam, scene, near}, targets, labels) {
     for (const {name, pose} of targets) {
       const from = cam.to(origin(pose));
-      for (const tip of triad(g, cam, pose, 0.09 * scene.size, 1.8, 0.95))
-        for (let k = 1; k < 8; k++)
-          taken.push([
-            from[0] + (k / 7) * (tip[0] - from[0]),
-            from[1] + (k / 7) * (tip[1] - from[1]),
-          ]);
+      triad(g, cam, pose, 0.09 * scene.size, 1.8, 0.95);
       spot(g, from, 2.6, colors.path, colors.paper, 1);
       labels.push({text: name, at: from, color: colors.ink, weight: "600"});
     }

@@ -97,8 +97,7 @@ function targetExplorer(stage, data) {
     stage.say(says);
     stage.name(fill(words.scene, {name: arm.name, values: inWords(data, values), says}));
     markTarget(stage, state, data);
-    const {place} = stage.handles;
-    return [{...posed(arm, found, state.q), axes: axes.on(), ellipsoid, handles: place}];
+    return [{...posed(arm, found, state.q), axes: axes.on(), ellipsoid}];
   });
 }
 

@@ -19,7 +19,7 @@ export const zone = {
     for (const {joint, dash, points} of found.flat())
       stroke(g, points.map(to), joint === null ? colors.soft : jointColor(joint), 2, dash);
   },
-  above({cam: {to}}, zones, {labels}) {
+  above({cam: {to}}, zones, labels) {
     for (const [text, at] of zones.flatMap(({labels: own}) => own))
       labels.push({text, at: to(at), color: colors.ink});
   },
