@@ -47,6 +47,7 @@ LAYERS = {
     "robokin.arms": BASE,
     # uses any object with a `lerp` method, but no arms
     "robokin.motion": ("robokin._arrays", "robokin._validate", "robokin.units"),
+    "robokin.motion.duration": (*BASE, "robokin.arms", "robokin.motion.laws"),
     "robokin.motion.recording": (*BASE, "robokin.arms", "robokin.motion.derivatives"),
     "robokin.jobs": KINEMATICS,
     "robokin.show": KINEMATICS,
