@@ -218,14 +218,6 @@ def test_package_itself_needs_only_numpy():
     assert extras["labs"] == labs | exports | reports
 
 
-def test_show_without_matplotlib_says_what_to_install():
-    code = "import sys; sys.modules['matplotlib'] = None; import robokin, robokin.show"
-    run = subprocess.run([sys.executable, "-c", code], text=True, capture_output=True)
-    assert re.search(
-        r"ImportError: .*matplotlib.*'\.\[show\]' at the top of a clone", run.stderr
-    ), run.stderr
-
-
 def test_eight_lines_of_the_readme_save_a_page(tmp_path):
     section = README.split("## The package alone\n")[1].split("\n## ")[0]
     (code,) = re.findall(r"^```python\n(.*?)^```", section, re.M | re.S)
