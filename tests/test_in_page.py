@@ -129,7 +129,7 @@ class Lab:
         return "\n".join(one.inner_text() for one in outputs).strip()
 
     def says(self, name):
-        return self.cell(name).locator(".rk-says").inner_text()
+        return self.cell(name).locator(".rk-status").inner_text()
 
     def source(self, name):
         cells = json.loads(self.page.locator("#rk-lab").text_content())["cells"]
@@ -175,7 +175,7 @@ def test_a_cell_runs_with_what_it_needs(lab):
 def record(lab, name):
     """Record what a cell says; the result returns the sentences."""
     lab.cell(name).evaluate("""cell => {
-        const says = cell.querySelector(".rk-says");
+        const says = cell.querySelector(".rk-status");
         cell.told = [];
         new MutationObserver(() => cell.told.push(says.textContent))
             .observe(says, {childList: true}); }""")
@@ -340,7 +340,7 @@ def test_a_browser_that_stores_nothing_says_so(browser, site_address, script, wh
     context.add_init_script(f"({script})()")
     lab = Lab(context, site_address)
     lab.edit(POINT, "print(1)")
-    note = lab.page.locator(".rk-intro ~ .rk-says").first
+    note = lab.page.locator(".rk-intro ~ .rk-status").first
     assert why in note.inner_text() and "Download my notebook" in note.inner_text()
     assert set(lab.errors) <= {"denied"}, "only furo's own script may ask the storage in vain"
     context.close()
