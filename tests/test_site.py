@@ -2,8 +2,6 @@
 checked.
 """
 
-import functools
-import http.server
 import importlib
 import inspect
 import json
@@ -11,7 +9,6 @@ import re
 import shutil
 import subprocess
 import sys
-import threading
 from html.parser import HTMLParser
 from urllib.parse import unquote, urlsplit
 
@@ -40,16 +37,6 @@ def command(folder, **more):
         timeout=900,
         **more,
     )
-
-
-@pytest.fixture(scope="session")
-def site(tmp_path_factory):
-    """The site, built once."""
-    folder = tmp_path_factory.mktemp("site") / "labs"
-    run = command(folder)
-    assert (run.returncode, run.stderr) == (0, "")
-    assert str(folder / "index.html") in run.stdout
-    return folder
 
 
 class Parsed(HTMLParser):
@@ -197,19 +184,8 @@ def _of_robokin(one):
 
 
 @pytest.fixture(scope="module")
-def address(site):
-    """The address at which the site is served."""
-
-    class Quiet(http.server.SimpleHTTPRequestHandler):
-        def log_message(self, *_):
-            pass
-
-    with http.server.ThreadingHTTPServer(
-        ("127.0.0.1", 0), functools.partial(Quiet, directory=str(site))
-    ) as server:
-        threading.Thread(target=server.serve_forever, daemon=True).start()
-        yield f"http://127.0.0.1:{server.server_port}/"
-        server.shutdown()
+def address(site_address):
+    return site_address
 
 
 @pytest.fixture(scope="module")
