@@ -115,6 +115,13 @@ def _site_arguments(command: Callable[..., argparse.ArgumentParser]) -> None:
         action="store_false",
         help="leave out the notes for teachers, which contain the answers to the oral questions",
     )
+    site.add_argument(
+        "--repository",
+        metavar="URL",
+        default="",
+        help="the https address of the repository, which every page then names as the place to "
+        "get robokin (default: no page does)",
+    )
 
 
 def _add(folder: Path) -> None:
@@ -220,7 +227,7 @@ def _site(options: Any) -> int:
 
     print("Building the site; this takes half a minute.", flush=True)
     try:
-        complaints = build(options.folder, options.teaching)
+        complaints = build(options.folder, options.teaching, options.repository)
     except (OSError, ValueError) as error:
         print(error, file=sys.stderr)
         return 1
