@@ -15,7 +15,6 @@
 import argparse
 import ast
 import contextlib
-import dis
 import io
 import json
 import os
@@ -25,8 +24,9 @@ import sys
 import time
 import traceback
 import types
-from collections.abc import Sequence
 from pathlib import Path
+
+from robokin.course.page.cells import global_names, reads
 
 ROOT = Path(__file__).resolve().parent.parent
 FORKS = hasattr(os, "fork")  # each value is tried in a fork
@@ -42,7 +42,6 @@ NAMES = re.compile(
 )  # q1, C2, K1, z_0, l2
 # Types whose values never change. Values of robokin's own types do not change either.
 FIXED = (types.ModuleType, types.FunctionType, type, str, float, int, tuple)
-SETS = (ast.Assign, ast.Import, ast.ImportFrom, ast.FunctionDef, ast.ClassDef, ast.Expr)
 ASKED = re.compile(r"^(predict|check|progress|hint|solution|variant)\(")
 
 
@@ -52,8 +51,8 @@ class Cell:
     def __init__(self, source: str) -> None:
         self.source = source
         tree = ast.parse(source)
-        self.reads = _reads(tree.body, set())  # names read before the cell sets them
-        self.writes = _globals(compile(tree, "cell", "exec"))[1]
+        self.reads = reads(tree.body, set())  # names read before the cell sets them
+        self.writes = global_names(compile(tree, "cell", "exec"))[1]
         self.changed: set[str] = set()  # in place: values[3] = 1, names.append("C")
         for node in ast.walk(tree):
             if isinstance(node, ast.Attribute) or (
@@ -260,41 +259,6 @@ def _forked(lab: Run, k: int, source: str):
         answer = pipe.read()
     os.waitpid(child, 0)
     return [tuple(x) for x in found] if isinstance(found := json.loads(answer), list) else found
-
-
-def _reads(body: Sequence[ast.stmt], sure: set[str]) -> set[str]:
-    """Return the global names that statements read before they set them. The names in `sure` are
-    already set.
-    """
-    found: set[str] = set()
-    for statement in body:
-        if isinstance(statement, ast.For):  # it sets its variables before its body reads them
-            own = {node.id for node in ast.walk(statement.target) if isinstance(node, ast.Name)}
-            found |= _globals(compile(ast.Expression(statement.iter), "cell", "eval"))[0] - sure
-            found |= _reads([*statement.body, *statement.orelse], sure | own)
-            continue
-        # in a loop, since the statement may contain `continue` or `break`
-        loop = ast.fix_missing_locations(ast.While(ast.Constant(True), [statement], []))
-        reads, writes = _globals(compile(ast.Module([loop], []), "cell", "exec"))
-        found |= reads - sure
-        sure = sure | writes if isinstance(statement, SETS) else sure  # others may not run
-    return found
-
-
-def _globals(code: types.CodeType) -> tuple[set[str], set[str]]:
-    """The global names that a piece of code reads, and those that it sets. The names that a
-    function reads count where the function is defined.
-    """
-    reads, writes = set(), set()
-    for step in dis.get_instructions(code):
-        if step.opname in ("LOAD_NAME", "LOAD_GLOBAL", "LOAD_FROM_DICT_OR_GLOBALS"):
-            reads.add(step.argval)
-        elif step.opname in ("STORE_NAME", "STORE_GLOBAL", "DELETE_NAME", "DELETE_GLOBAL"):
-            writes.add(step.argval)
-    for inner in code.co_consts:
-        if isinstance(inner, types.CodeType):
-            reads |= _globals(inner)[0]
-    return reads, writes
 
 
 def _differ(a: str, b: str) -> tuple[str, str]:

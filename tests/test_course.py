@@ -27,6 +27,7 @@ from robokin.course import (
     hint,
     key,
     markdown,
+    page,
     progress,
     solution,
     variant,
@@ -368,18 +369,43 @@ def test_many_slow_cases_are_reported_together(monkeypatch):
     )
 
 
-def test_verdicts_do_not_depend_on_threads_and_the_host_process_is_notified(monkeypatch):
-    tried = [right, prints, lambda h, a: h / 0, lambda h, a: right(0.5, a), half_written]
-    before = [check("made.1", answer) for answer in tried]
+def threadless(monkeypatch):
+    """Make Python as in a web page, without threads and CPU time. Return what the page is told."""
     told = []
-    monkeypatch.setattr(answers, "host", told.append)
 
     def none(*given):
         raise RuntimeError("can't start new thread")
 
     monkeypatch.setattr(_thread, "start_new_thread", none)
+    monkeypatch.delattr(time, "thread_time")
+    monkeypatch.setattr(time, "process_time", lambda: 0.0)
+    monkeypatch.setattr(page, "began", lambda limit, sentence: told.append((limit, sentence)))
+    monkeypatch.setattr(page, "ended", lambda: told.append(None))
+    return told
+
+
+def test_verdicts_do_not_depend_on_threads_and_the_page_is_told(monkeypatch):
+    tried = [right, prints, lambda h, a: h / 0, lambda h, a: right(0.5, a), half_written]
+    before = [check("made.1", answer) for answer in tried]
+    told = threadless(monkeypatch)
     assert [check("made.1", answer) for answer in tried] == before
-    assert told == [True, False] * (len(told) // 2) and len(told) >= 2 * len(tried)
+    assert len(told) >= 2 * len(tried) and told[1::2] == [None] * (len(told) // 2)
+    says = "It never ends, or is far too slow (stopped after 12 s)."
+    assert set(told[::2]) == {(answers.PAGE, says)}
+
+
+def test_page_is_told_that_an_answer_ended_even_if_it_raises(monkeypatch):
+    told = threadless(monkeypatch)
+    answers.run(lambda: 1 / 0, [()])
+    assert len(told) == 2 and told[1] is None
+
+
+def test_all_cases_together_may_take_a_limited_time_without_threads(monkeypatch):
+    threadless(monkeypatch)
+    monkeypatch.setattr(answers, "TOTAL", 0.2)
+    outcomes = answers.run(lambda x: time.sleep(0.06) or x, [(1,)] * 40)
+    assert len(outcomes) < 12 and outcomes[-1].name == "too slow"
+    assert {o.result for o in outcomes[:-1]} == {1}
 
 
 def test_time_limit_leaves_no_thread_behind(monkeypatch):

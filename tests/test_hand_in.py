@@ -70,18 +70,25 @@ def test_report_without_a_name_prints_one_line(desk, who):
     assert repr(report(who)) == ASLEEP and desk.judged == []
 
 
-@pytest.mark.parametrize("where", ["judged", "in a page", "only executed"])
+@pytest.mark.parametrize("where", ["judged", "only executed"])
 def test_report_outside_a_front_end_prints_one_line(desk, monkeypatch, where):
     stored(desk.lab, REPORT)
     if where == "judged":
         monkeypatch.setenv("ROBOKIN_JUDGE", "1")
         assert repr(report("Ada", notebook="lab.ipynb")) == ASLEEP
-    elif where == "in a page":
-        monkeypatch.setattr(sys, "platform", "emscripten")
     else:  # run by nbval, nbclient or tests/rerun.py
         monkeypatch.delenv("JPY_SESSION_NAME")
     assert repr(report("Ada")) == ASLEEP and desk.judged == []
     assert "\n" not in ASLEEP
+
+
+def test_report_in_a_page_says_where_to_write_it(desk, monkeypatch):
+    stored(desk.lab, REPORT)
+    monkeypatch.setattr(sys, "platform", "emscripten")
+    for who in ("Ada", "your name"):
+        told = repr(report(who, "p1 b", notebook="lab.ipynb"))
+        assert "Download my notebook" in told and "JupyterLab" in told and "\n" not in told
+    assert desk.judged == []
 
 
 def test_any_student_name_is_accepted(desk):

@@ -19,10 +19,12 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from ..transform import Transform
+from . import page
 
 SECONDS = 4.0  # seconds of CPU time for one case, or for one program of a test
 TOTAL = 30.0  # seconds of CPU time for all cases together
 WALL = 90.0  # wall-clock seconds for one case: sleeping takes no CPU time
+PAGE = 12.0  # wall-clock seconds for one case in a web page, where Python is about 3 times slower
 QUIET = {"RESUME", "NOP", "LOAD_CONST", "RETURN_VALUE", "RETURN_CONST"}
 IDENTITY: Any = object.__eq__  # the == of classes that do not define one
 RAISING = {"LOAD_GLOBAL", "RAISE_VARARGS", "PUSH_NULL", "PRECALL", "CALL"}
@@ -84,9 +86,6 @@ def unended(outcome: Outcome) -> bool:
     return outcome.name in ("never ends", "too slow")
 
 
-host: Callable[[bool], None] = lambda begins: None  # noqa: E731  see `run`
-
-
 def run(answer: Callable[..., Any], cases: Sequence[tuple[Any, ...]]) -> list[Outcome]:
     """Run `answer` on every case, up to the first one that does not end in time. Each case may take
     `SECONDS` of CPU time and `WALL` seconds of real time, since it may wait or compute elsewhere;
@@ -94,8 +93,8 @@ def run(answer: Callable[..., Any], cases: Sequence[tuple[Any, ...]]) -> list[Ou
 
     The answer runs in its own thread, so that `TimeUp`, which can arrive between any two
     instructions, cannot reach the calling thread. In a web page, Python has no threads. There, the
-    page sets `host`, which we call with True when answers begin and with False when they have
-    ended, and the page stops Python if necessary.
+    functions in `page` tell the page when a case begins and ends, and the page stops Python after
+    `PAGE` seconds.
     """
     worker, streams = _Worker(answer, cases), (sys.stdout, sys.stderr)
     try:
@@ -204,11 +203,19 @@ class _Worker:
         self.gone.release()
 
     def run_here(self) -> None:
-        host(True)
-        try:
-            self._answer()
-        finally:
-            host(False)
+        """Answer without a thread, in a web page."""
+        first = time.monotonic()
+        with np.errstate(all="ignore"):
+            for case in self.cases:
+                if time.monotonic() - first > TOTAL:
+                    self.over = "all"
+                    self.outcomes.append(NEVER)
+                    break
+                page.began(PAGE, _never(PAGE).says)
+                try:
+                    self.outcomes.append(_call(self.answer, case))
+                finally:
+                    page.ended()
 
     def stopped(self, cases: int) -> Outcome:
         """The outcome of the last of `cases` cases, which was stopped."""

@@ -9,6 +9,7 @@ still shows everything that is stored.
 
 import base64
 import json
+import sys
 from collections.abc import Callable
 from typing import Any, TypeAlias
 
@@ -100,18 +101,34 @@ def stored(content: Any, buffers: list[bytes]) -> Any:
 # --- The widget -----------------------------------------------------------------------------------
 
 _awake: dict[str, Any] = {}  # the widget of each view, by id; running the cell again replaces it
+_answers: dict[str, Callable[[Question], Answer]] = {}  # of each view that has been shown
+
+
+def answered(place: str, question: Question) -> Any:
+    """Return the answer to a question of the view with this id, with arrays in base64."""
+    return stored(*_replied(_answers[place], question))
+
+
+def _replied(answer: Callable[[Question], Answer], question: Question) -> tuple[Any, list[bytes]]:
+    """Return an answer and its arrays, or {"error": the reason why there is none}."""
+    try:
+        content, buffers = split_arrays(answer(question))
+        inert(content)
+    except Exception as error:  # the view shows it, since this thread's output is not visible
+        content, buffers = {"error": f"{type(error).__name__}: {error}"}, []
+    return content, buffers
 
 
 def _wake(place: str, answer: Callable[[Question], Answer]) -> None:
     """Answer all questions that this view of the page asks from now on."""
 
     def reply(model: Any, message: Any, _: Any) -> None:
-        try:
-            content, buffers = split_arrays(answer(message["question"]))
-            inert(content)
-        except Exception as error:  # the view shows it, since this thread's output is not visible
-            content, buffers = {"error": f"{type(error).__name__}: {error}"}, []
+        content, buffers = _replied(answer, message["question"])
         model.send({"to": message["to"], "n": message["n"], "answer": content}, buffers)
+
+    _answers[place] = answer
+    if sys.platform == "emscripten":  # the page asks `answered`
+        return
 
     if place in _awake:
         _awake.pop(place).close()

@@ -1,11 +1,12 @@
 """The course as a website for readers without Python: labs, companions, glossary, notes for
-teachers and the package reference. Its views and predictions work, and it loads nothing from other
-sites.
+teachers and the package reference. Its views and predictions work, the cells of the labs run in the
+page, and it loads nothing from other sites.
 
 Sphinx, myst-nb and furo build it from the stored outputs. `build` arranges their input; conf.py
 configures them.
 """
 
+import hashlib
 import importlib
 import json
 import os
@@ -20,6 +21,8 @@ from tempfile import TemporaryDirectory
 
 import robokin
 
+from . import files
+
 HERE = Path(__file__).parent
 TEACHING = "teaching.ipynb"
 NOTES = "documents/teaching"  # the link to the notes; its line in index.md is removed with them
@@ -32,7 +35,8 @@ def build(folder: Path, teaching: bool = True, repository: str = "") -> str:
     warnings. If `repository` is the address of robokin's repository, every page names it.
 
     Raises ValueError, and writes nothing, if the address is not one, there are no labs, Sphinx is
-    not installed or fails, or a file that is not part of a site is in the way.
+    not installed or fails, the files of Python cannot be fetched, or a file that is not part of a
+    site is in the way.
     """
     if repository and not REPOSITORY.fullmatch(repository):
         wanted = "an address such as https://example.org/group/robokin"
@@ -50,13 +54,23 @@ def build(folder: Path, teaching: bool = True, repository: str = "") -> str:
         made = source.with_name("made")
         notebooks = [path for path in _notebooks(labs) if teaching or path.name != TEACHING]
         _gather(labs, notebooks, source)
+        sizes = files.assets(python := source.with_name("python"))
+        version = _version(python)
+        _write(source / "sizes.json", json.dumps({"version": version, "sizes": sizes}))
         complaints = _run(source, made, repository)
+        shutil.move(python, made / "python")
         for notebook in notebooks:  # the notebook to download, next to its page
             shutil.copyfile(notebook, made / notebook.relative_to(labs))
         unwanted = shutil.ignore_patterns("__pycache__")
         shutil.copytree(labs / "exercises", made / "exercises", ignore=unwanted)
         _put(made, folder)
     return complaints
+
+
+def _version(folder: Path) -> str:
+    """A hash of all files in a folder, which changes the addresses that a browser has stored."""
+    all_ = sorted(path for path in folder.rglob("*") if path.is_file())
+    return hashlib.sha256(b"".join(path.read_bytes() for path in all_)).hexdigest()[:8]
 
 
 def anchor(title: str) -> str:
@@ -79,7 +93,7 @@ def _gather(labs: Path, notebooks: list[Path], source: Path) -> None:
     from ...show import target_explorer
     from ..ours import quiet
 
-    shutil.copytree(HERE, source, ignore=shutil.ignore_patterns("__*"))
+    shutil.copytree(HERE, source, ignore=shutil.ignore_patterns("__*", "files.py", "python.json"))
     for notebook in notebooks:
         copy = source / notebook.relative_to(labs)
         copy.parent.mkdir(exist_ok=True)

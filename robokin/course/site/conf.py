@@ -6,7 +6,7 @@ text.
 
 import json
 import re
-from pathlib import PurePosixPath
+from pathlib import Path, PurePosixPath
 from typing import Any
 
 from docutils import nodes
@@ -51,6 +51,9 @@ html_favicon = "static/arm.svg"
 html_copy_source = html_show_sourcelink = html_show_copyright = False
 html_use_index = html_domain_indices = False
 
+LAB = re.compile(r"\d\d_\w+")
+SIZES = "sizes.json"  # next to this file: the sizes of the files in python/, by `build`
+
 
 def setup(app: Any) -> dict[str, bool]:
     app.add_html_math_renderer("mathml", (_inline, None), (_block, None))
@@ -59,6 +62,8 @@ def setup(app: Any) -> dict[str, bool]:
     app.connect("doctree-read", _numbered)
     app.connect("doctree-resolved", _to_the_section)
     app.connect("doctree-resolved", _foldable)
+    app.connect("doctree-resolved", _findable)
+    app.connect("html-page-context", _runnable)
     app.connect("autodoc-skip-member", _not_ours)
     app.connect("autodoc-process-docstring", _as_it_is)
     return {"parallel_read_safe": True, "parallel_write_safe": True}
@@ -152,6 +157,42 @@ def _foldable(app: Any, doctree: nodes.document, docname: str) -> None:
 
 
 OPENED = '<details class="rk-code" open><summary>code</summary>'
+
+
+# --- Cells that run in the page (lab.js) ----------------------------------------------------------
+
+
+def _findable(app: Any, doctree: nodes.document, docname: str) -> None:
+    for cell in doctree.findall(nodes.container):
+        if LAB.fullmatch(docname) and cell.get("nb_element") == "cell_code":
+            cell["ids"].append(_place(cell["cell_index"]))
+
+
+def _place(k: int) -> str:
+    return f"code-{k}"
+
+
+def _runnable(app: Any, pagename: str, template: str, context: Any, doctree: Any) -> None:
+    """Write the code cells of a lab and the sizes of Python's files into its page."""
+    if not LAB.fullmatch(pagename):
+        return
+    notebook = Path(app.env.doc2path(pagename))
+    cells = json.loads(notebook.read_text(encoding="utf-8"))["cells"]
+    code = [
+        {"place": _place(k), "id": cell["id"], "source": source, "asks": asks}
+        for k, cell in enumerate(cells)
+        if cell["cell_type"] == "code" and (source := "".join(cell["source"]))
+        for asks in (bool(re.search(r"^predict\(", source, re.M)),)
+    ]
+    made = json.loads(Path(app.srcdir, SIZES).read_text(encoding="utf-8"))
+    sympy = any("sympy" in cell["source"] for cell in code)
+    parts = {"python": [], "sympy": []}
+    for name, size in made["sizes"].items():
+        kind = "sympy" if name.startswith("sympy") else "python"
+        if name.endswith(".gz") and (kind == "python" or sympy):
+            parts[kind].append({"name": name, "size": size})
+    lab = {"file": notebook.name, "version": made["version"], "cells": code} | parts
+    context["lab"] = json.dumps(lab).replace("<", "\\u003c")
 
 
 # --- Docstrings -----------------------------------------------------------------------------------

@@ -10,3 +10,15 @@
   new MutationObserver(tell).observe(body, {attributeFilter: ["data-theme"]});
   tell();
 })();
+
+// Labs run their cells in the page (lab.js). A browser loads no modules and no worker from a folder.
+(() => {
+  const here = /** @type {HTMLScriptElement} */ (document.currentScript).src,
+    why = document.querySelector(".rk-asleep-cells");
+  if (!document.getElementById("rk-lab")) return;
+  if (location.protocol !== "file:") void import(new URL("lab.js", here).href);
+  else if (why)
+    why.textContent =
+      "This page was opened from a folder, so its cells cannot run here. They run if you open the " +
+      "page at a web address.";
+})();

@@ -1,0 +1,193 @@
+// A cell of the lab that the reader can change and run.
+
+import {editor} from "./editor.js";
+import {keep, kept} from "./edits.js";
+import {runScripts, shown} from "./outputs.js";
+
+/** @import {Editor} from "./editor.js" */
+/** @import {Edit} from "./edits.js" */
+/** @import {Output} from "./outputs.js" */
+/** @typedef {{place: string, id: string, source: string, asks: boolean}} CellData */
+
+const OLD_RESULT = "You changed this cell. The result below is that of the stored cell: press Run.";
+const NEWER = "The lab has a newer text of this cell than the one that you changed.";
+
+export class Cell {
+  /**
+   * @param {CellData} data
+   * @param {string} name  such as "cell 3"
+   * @param {HTMLElement} place
+   * @param {(cell: Cell) => void} run
+   * @param {() => void} stop
+   * @param {(sentence: string) => void} complain  about the browser's storage
+   */
+  constructor(data, name, place, run, stop, complain) {
+    this.data = data;
+    this.name = name;
+    this.place = place;
+    this.run = () => run(this);
+    this.complain = complain;
+    this.text = data.source;
+    this.stopped = false;
+    this.stored = place.querySelector(":scope > .cell_output");
+    /** @type {?HTMLElement} */
+    this.own = null;
+    /** @type {?Promise<Editor>} */
+    this.editor = null;
+    if (data.asks) return;
+    this.input = /** @type {HTMLElement} */ (place.querySelector(".cell_input"));
+    this.says = made("p", "rk-says");
+    this.says.setAttribute("role", "status");
+    this.runs = this.button("Run", this.run);
+    this.stops = this.button("Stop", stop);
+    this.edits = this.button("Edit", () => this.edit(true));
+    this.resets = this.button("Reset", () => this.reset());
+    this.bar = made("div", "rk-bar");
+    this.bar.append(this.runs, this.stops, this.edits, this.resets);
+    this.stops.hidden = this.resets.hidden = true;
+    if (this.stored) this.stored.before(this.bar, this.says);
+    else place.append(this.bar, this.says);
+    this.input.addEventListener("click", () => {
+      if (!getSelection()?.toString()) this.edit(true);
+    });
+    place.addEventListener("keydown", event => this.press(event), true);
+    this.remember(kept(data.id));
+  }
+
+  /** @type {(label: string, act: () => void) => HTMLButtonElement} */
+  button(label, act) {
+    const button = made("button", "");
+    button.type = "button";
+    button.textContent = label;
+    if (this.name) button.setAttribute("aria-label", `${label} ${this.name}`);
+    button.addEventListener("click", act);
+    return button;
+  }
+
+  /** @param {KeyboardEvent} event */
+  press(event) {
+    const inEditor = event.target instanceof HTMLTextAreaElement && this.input?.contains(event.target);
+    if (!inEditor || event.key !== "Enter" || !event.shiftKey) return;
+    event.preventDefault();
+    event.stopPropagation();
+    this.run();
+  }
+
+  /** Shows the edit that this browser has kept, or asks whether to. @param {?Edit} edit */
+  remember(edit) {
+    if (!edit || edit.text === this.data.source) return;
+    if (edit.stored === this.data.source) return this.put(edit.text);
+    this.say(NEWER, [
+      ["Use my text", () => this.put(edit.text)],
+      ["Use the lab's text", () => this.reset()],
+    ]);
+  }
+
+  /** The text of another tab. @param {?Edit} edit */
+  follow(edit) {
+    const text = edit?.text ?? this.data.source;
+    if (this.data.asks || text === this.text) return;
+    this.put(text);
+    this.say("You changed this cell in another tab. This is its text now.");
+  }
+
+  /** Replaces the text. @param {string} text */
+  put(text) {
+    this.changed(text);
+    this.edit(false).then(made => made.set(text));
+  }
+
+  /** Opens the editor. @param {boolean} focus */
+  async edit(focus) {
+    const {input, edits} = this;
+    if (!input || !edits) throw new Error("not a cell to edit");
+    const fold = input.closest("details");
+    if (fold && focus) fold.open = true;
+    if (!this.editor) {
+      const place = made("div", "rk-editor");
+      input.classList.add("rk-edited");
+      this.editor = editor(place, this.text, `code of ${this.name}`, text => this.changed(text));
+      await this.editor;
+      input.replaceChildren(place);
+      edits.hidden = true;
+    }
+    const opened = await this.editor;
+    if (focus) opened.box.focus();
+    return opened;
+  }
+
+  /** The reader has changed the text. @param {string} text */
+  changed(text) {
+    const {id, source} = this.data;
+    this.text = text;
+    this.complain(keep(id, text === source ? null : {stored: source, text}));
+    this.mark();
+    this.say(text === source || this.own || !this.stored ? "" : OLD_RESULT);
+  }
+
+  /** Gives the stored cell back; the reader can undo this. */
+  reset() {
+    const before = this.text;
+    this.show(null);
+    this.put(this.data.source);
+    if (before === this.data.source) return;
+    this.say("This is the lab's cell again.", [["Undo", () => this.put(before)]]);
+  }
+
+  mark() {
+    if (this.resets) this.resets.hidden = this.text === this.data.source && !this.own;
+  }
+
+  /** Shows the reader's own result in the place of the stored one, or the stored one. @param {?Output[]} outputs */
+  show(outputs) {
+    this.own?.remove();
+    this.own = outputs && shown(outputs, this.stored);
+    if (this.stored instanceof HTMLElement) this.stored.hidden = Boolean(this.own);
+    if (this.own) {
+      this.place.append(this.own);
+      runScripts(this.own);
+    }
+    this.mark();
+  }
+
+  /** @param {boolean} running */
+  busy(running) {
+    this.place.toggleAttribute("data-running", running);
+    const {runs, stops} = this;
+    if (!runs || !stops) return;
+    const focused = document.activeElement;
+    stops.hidden = !running;
+    if (running && focused === runs) stops.focus();
+    runs.hidden = running;
+    if (!running && focused === stops) runs.focus();
+    stops.hidden = !running;
+  }
+
+  /**
+   * Says something below the cell, with buttons.
+   * @param {string} sentence
+   * @param {[string, () => void][]} [choices]
+   */
+  say(sentence, choices = []) {
+    this.says?.replaceChildren(
+      sentence,
+      ...choices.map(([label, act]) =>
+        this.button(label, () => {
+          this.say("");
+          act();
+        }),
+      ),
+    );
+  }
+}
+
+/**
+ * @template {keyof HTMLElementTagNameMap} T
+ * @param {T} tag
+ * @param {string} name
+ */
+export function made(tag, name) {
+  const node = document.createElement(tag);
+  if (name) node.className = name;
+  return node;
+}

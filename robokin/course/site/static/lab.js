@@ -1,0 +1,154 @@
+// Runs the cells of a lab in its page. site.js loads this module if the page comes from a server;
+// conf.py writes the cells and the sizes of Python's files into the page.
+
+import {Cell, made} from "./cell.js";
+import {notebook, offer} from "./download.js";
+import {elsewhere} from "./edits.js";
+import {Ended, Python, mb} from "./python.js";
+import {Views} from "./views.js";
+
+/** @import {CellData} from "./cell.js" */
+/** @import {File} from "./python.js" */
+/** @import {Output} from "./outputs.js" */
+/** @typedef {{file: string, version: string, python: File[], sympy: File[], cells: CellData[]}} LabData */
+/** @typedef {{outputs: Output[], views?: string[]}} Result */
+
+const ABOVE = "A cell above that this one needs ended with an error.";
+
+class Lab {
+  /** @param {LabData} data */
+  constructor(data) {
+    this.data = data;
+    this.python = new Python([...data.python, ...data.sympy], data.version, () => this.ended());
+    this.views = new Views(this.python);
+    this.note = made("p", "rk-says");
+    this.note.setAttribute("role", "status");
+    /** @type {?Cell} */
+    this.running = null;
+    this.cells = data.cells.map((cell, k) => {
+      const place = /** @type {HTMLElement} */ (document.getElementById(cell.place));
+      const complain = (/** @type {string} */ why) => (this.note.textContent = why);
+      const run = (/** @type {Cell} */ each) => void this.run(each);
+      return new Cell(cell, `cell ${k + 1}`, place, run, () => this.python.end("stopped"), complain);
+    });
+    elsewhere((id, edit) => this.cells.find(each => each.data.id === id)?.follow(edit));
+    this.introduce();
+  }
+
+  /** The lines above the lab: what one can do, what it costs, and the reader's notebook. */
+  introduce() {
+    const {data, note} = this,
+      line = made("p", "rk-intro"),
+      more = data.sympy.length ? `, and SymPy, ${mb(total(data.sympy))} MB` : "";
+    const button = made("button", "");
+    button.type = "button";
+    button.textContent = "Download my notebook";
+    button.addEventListener("click", () => void this.download());
+    line.append(
+      "You can change and run the cells on this page. The first Run fetches Python once, ",
+      `${mb(total(data.python))} MB${more}. `,
+      button,
+    );
+    document.querySelector("p.download")?.after(line, note);
+  }
+
+  async download() {
+    const {cells, data, note} = this;
+    const edited = cells.filter(({text, data}) => text !== data.source);
+    try {
+      const texts = new Map(edited.map(({text, data}) => [data.id, text]));
+      offer(data.file, await notebook(data.file, texts));
+      note.textContent = `Downloaded ${data.file} with your changes and your guesses.`;
+    } catch (error) {
+      note.textContent = `The notebook could not be fetched (${error}).`;
+    }
+  }
+
+  /** Runs what a cell needs, then the cell. @param {Cell} cell */
+  async run(cell) {
+    if (this.running) {
+      if (this.running !== cell) cell.say(`Python is still running ${this.running.name}.`);
+      return;
+    }
+    this.running = cell;
+    cell.stopped = false;
+    cell.busy(true);
+    try {
+      await this.python.start(sentence => cell.say(sentence));
+      if (await this.prepare(cell)) {
+        cell.say("Running …");
+        await this.execute(cell, true);
+        cell.say("This is your result.");
+      }
+    } catch (error) {
+      if (!(error instanceof Ended)) throw error;
+      this.explain(cell, error);
+    } finally {
+      this.running = null;
+      cell.busy(false);
+    }
+  }
+
+  /** Runs the cells that a cell needs; returns whether all of them ended without an error. @param {Cell} cell */
+  async prepare(cell) {
+    const {cells} = this,
+      texts = cells.map(({text}) => text);
+    /** @type {number[]} */
+    const needs = await this.python.call("needs", texts, cells.indexOf(cell));
+    const stopped = needs.map(k => cells[k]).find(each => each.stopped);
+    if (stopped) {
+      cell.say(`This cell needs ${stopped.name}, which was stopped.`, [["Show it", () => reveal(stopped)]]);
+      return false;
+    }
+    for (const [done, k] of needs.entries()) {
+      const left = needs.length - done;
+      cell.say(`Running ${left} ${left === 1 ? "cell" : "cells"} above …`);
+      if (await this.execute(cells[k], false)) continue;
+      cell.say(ABOVE, [["Show it", () => reveal(cells[k])]]);
+      return false;
+    }
+    return true;
+  }
+
+  /**
+   * Runs one cell and shows its result. If the cell was run only because another one needs it, and
+   * is unchanged, its stored result stays. Returns whether it ended without an error.
+   * @type {(cell: Cell, asked: boolean) => Promise<boolean>}
+   */
+  async execute(cell, asked) {
+    /** @type {Result} */
+    const result = await this.python
+      .call("run", cell.text, this.cells.indexOf(cell))
+      .catch(error => {
+        cell.stopped = true;
+        throw error;
+      });
+    const fine = !result.outputs.some(({output_type}) => output_type === "error");
+    for (const id of result.views ?? []) this.views.learn(id);
+    if (asked || !fine || cell.text !== cell.data.source) cell.show(result.outputs);
+    return fine;
+  }
+
+  /** Says why a cell has no result. @type {(cell: Cell, why: Ended) => void} */
+  explain(cell, why) {
+    if (why.how !== "check") return cell.say(why.message);
+    cell.show([{output_type: "stream", name: "stdout", text: why.message}]);
+    cell.say("The check was stopped, and Python was ended. It starts again with your next Run.");
+  }
+
+  ended() {
+    this.views.sleep();
+  }
+}
+
+/** @param {File[]} files */
+const total = files => files.reduce((sum, {size}) => sum + size, 0);
+
+/** @param {Cell} cell */
+function reveal(cell) {
+  cell.place.scrollIntoView();
+  cell.runs?.focus({preventScroll: true});
+}
+
+const data = document.getElementById("rk-lab")?.textContent;
+if (data) new Lab(JSON.parse(data));
