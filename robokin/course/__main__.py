@@ -101,7 +101,7 @@ def _copy_arguments(command: Callable[..., argparse.ArgumentParser]) -> None:
 def _site_arguments(command: Callable[..., argparse.ArgumentParser]) -> None:
     site = command(
         _site,
-        "write all labs and the package reference as pages that work without Python",
+        "write all labs and the package reference as pages, which run Python themselves",
         "Write a website into FOLDER: the labs, companions, glossary, notes for teachers, package "
         "reference and a search page. Open its index.html, or put the folder on any web server.",
         extra="site",
@@ -225,7 +225,7 @@ def _summary(options: Any) -> int:
 def _site(options: Any) -> int:
     from .site import build
 
-    print("Building the site; this takes half a minute.", flush=True)
+    print("Building the site; this takes about a minute.", flush=True)
     try:
         complaints = build(options.folder, options.teaching, options.repository)
     except (OSError, ValueError) as error:
