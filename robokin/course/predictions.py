@@ -170,4 +170,5 @@ def shown(view: Any, nonce: str = "") -> str:
         return "".join(paragraph(line) for line in view.split("\n") if line)
     if nonce and hasattr(view, "_in_page"):
         return str(view._in_page(nonce))
-    return str(view._repr_mimebundle_()["text/html"])
+    data = view._repr_mimebundle_()
+    return str(data["text/html"]) if "text/html" in data else paragraph(data["text/plain"])

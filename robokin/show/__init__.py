@@ -1,30 +1,26 @@
 """Figures and players for notebooks, made from arrays."""
 
-try:
-    from .charts import bars, curves
-    from .clearance_explorer import clearance_explorer
-    from .conveyor import conveyor_player
-    from .crossing_explorer import crossing_explorer
-    from .elbow_explorer import elbow_explorer
-    from .ellipsoid import plot_velocity_ellipsoid
-    from .explorer import Explorer
-    from .explorers import joint_explorer, target_explorer
-    from .joint_plot import plot_joints
-    from .levers_explorer import movement_explorer
-    from .motion_explorer import motion_explorer
-    from .motors import motor_explorer
-    from .palette import JOINT_STYLES
-    from .paths_explorer import paths_explorer
-    from .plan_explorer import plan_explorer
-    from .player import Player, animate
-    from .plots import figure, plot_frames, plot_postures
-    from .rotation_explorer import rotation_explorer
-    from .singularity_explorer import singularity_explorer
-    from .sketch import Sketch
-    from .tour_explorer import tour_explorer
-except ModuleNotFoundError as error:
-    install = "to install it, run pip install '.[show]' at the top of a clone of robokin"
-    raise ImportError(f"robokin.show: {error}; {install}") from error
+from .charts import bars, curves
+from .clearance_explorer import clearance_explorer
+from .conveyor import conveyor_player
+from .crossing_explorer import crossing_explorer
+from .elbow_explorer import elbow_explorer
+from .ellipsoid import plot_velocity_ellipsoid
+from .explorer import Explorer
+from .explorers import joint_explorer, target_explorer
+from .joint_plot import plot_joints
+from .levers_explorer import movement_explorer
+from .motion_explorer import motion_explorer
+from .motors import motor_explorer
+from .palette import JOINT_STYLES
+from .paths_explorer import paths_explorer
+from .plan_explorer import plan_explorer
+from .player import Player, animate
+from .plots import figure, plot_frames, plot_postures
+from .rotation_explorer import rotation_explorer
+from .singularity_explorer import singularity_explorer
+from .sketch import Sketch
+from .tour_explorer import tour_explorer
 
 __all__ = [
     "JOINT_STYLES",

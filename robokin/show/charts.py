@@ -8,11 +8,10 @@ fig
 from collections.abc import Mapping, Sequence
 from typing import Any
 
-from matplotlib.axes import Axes
-
 from .._arrays import ArrayLike
 from .._validate import floats, instance, number, short, whole
 from .checks import plain, several
+from .drawing import Axes
 from .palette import COMPARED, FIRST, JOINT_STYLES
 
 LOOKS = [(style["color"], (0, style["dash"])) for style in JOINT_STYLES]  # joints 1 to 6

@@ -3,7 +3,6 @@
 from typing import Any
 
 import numpy as np
-from matplotlib.patches import Polygon
 
 from .._arrays import ArrayLike, Floats
 from .._validate import warn_if_degrees
@@ -13,6 +12,7 @@ from ..units import length_unit
 from . import layers
 from .camera import arm_points, extent, flange, is_flat
 from .checks import if_given, samples, sentence
+from .drawing import Polygon
 from .palette import ALARM, INK, TRACE
 from .plots import Figure
 from .scene import Scene, number

@@ -5,13 +5,13 @@ from collections.abc import Iterator, Sequence
 from typing import Any
 
 import numpy as np
-from PIL import Image
 
 from .._arrays import Floats, Ints
 from ..arms.arm import Arm
 from ..transform import Transform
 from . import plots
 from .camera import flange, standing
+from .drawing import Image, require
 from .page import PageScene
 from .saving import MARK
 from .scene import Scene
@@ -45,6 +45,7 @@ class Film:
         """Return the film as a GIF that repeats forever. Raises ValueError if it is larger than 3
         MB.
         """
+        require()
         seconds = float(self.t[-1] - self.t[0])
         count = max(2, min(FRAMES, int(seconds * RATE) + 1))
         times = np.linspace(self.t[0], self.t[-1], count)

@@ -18,7 +18,7 @@ from .numbers import NOTHING, packed, scale, thin, tidy
 from .output import Output
 from .page import CurvePanel, PageCurves, PagePanel, Unit, Watch
 from .page_panels import FINEST, joint_panel
-from .palette import ALARM, DASHES
+from .palette import DASHES
 from .panels import draw_panel, lay_out, without_spikes
 from .plots import Figure
 from .scene import number
@@ -117,9 +117,7 @@ def plot_joints(
     facts = [f"{arm.name}, joint curves over {duration} s."]
     facts += [fact for panel in panels for fact in panel.facts]
     fig.alt = alt or " ".join([*sentence(title), *facts])
-    notes = [
-        (fact, panel.heading.get_color() == ALARM) for panel in panels for fact in panel.facts[1:]
-    ]
+    notes = [(fact, panel.alarm) for panel in panels for fact in panel.facts[1:]]
     fig.page = curves_page(recording, drawn, kinds, title or "", fig.alt, notes)
     return fig
 

@@ -3,11 +3,11 @@ samples, and compact integers.
 """
 
 import base64
+import math
 from collections.abc import Iterable, Sequence
 from typing import Any, TypeAlias, TypedDict
 
 import numpy as np
-from matplotlib.ticker import MaxNLocator
 
 from .._arrays import ArrayLike, Bools, Floats, Ints
 from ..motion.recording import Recording
@@ -19,6 +19,7 @@ DATA_BYTES = 570_000
 NOTHING = -32768  # the integer for "no value"
 # added before rounding, so that every processor rounds an exact half in the same way
 TIE = 2e-7 * np.sqrt(2)
+STEPS = np.array([0.1, 0.2, 0.25, 0.5, 1, 2, 2.5, 5, 10, 20])  # of ticks
 
 
 class Packed(TypedDict):
@@ -163,13 +164,27 @@ def scales(ranges: Sequence[Any]) -> list[Scale]:
 
 
 def scale(low: float, high: float) -> Scale:
-    """Return the scale with Matplotlib's ticks. The outermost ticks are at or beyond the data."""
+    """Return the scale with Matplotlib's ticks for at most four intervals: the least step of 1, 2,
+    2.5 or 5 times a power of ten that is at least a quarter of the range, or a smaller one if fewer
+    than two ticks are within the range. The outermost ticks are at or beyond the data.
+    """
     low, high = (float(f"{x:.6g}") if abs(x) > 1e-6 else 0.0 for x in (low, high))
     if high - low < 1e-6 * max(abs(low), abs(high), 1e-3):
         pad = 0.5 * max(abs(low), 1.0)
         low, high = low - pad, high + pad
-    ticks = MaxNLocator(nbins=4, steps=[1, 2, 2.5, 5, 10]).tick_values(low, high)
-    return _ticks(float(f"{ticks[0]:.6g}"), float(f"{ticks[1] - ticks[0]:.6g}"), len(ticks))
+    middle, rough = (low + high) / 2, (high - low) / 4
+    far = abs(middle) >= 400 * rough  # then count from a power of ten, as Matplotlib does
+    origin = np.copysign(10.0 ** np.floor(np.log10(abs(middle))), middle) if far else 0.0
+    low, high = low - origin, high - origin
+    steps = 10.0 ** math.floor(math.log10(rough)) * STEPS
+    for step in reversed(steps[: np.searchsorted(steps, (high - low) / 4) + 1]):
+        near = max(1e-10, 1e-12 * abs(origin) / step)  # how near a tick may be to an end, in steps
+        under = low // step * step
+        first, last = np.floor((low - under) / step + near), np.ceil((high - under) / step - near)
+        ticks = np.arange(first, last + 1) * step + under
+        if ((low <= ticks) & (ticks <= high)).sum() >= 2:
+            break
+    return _ticks(float(f"{ticks[0] + origin:.6g}"), float(f"{step:.6g}"), len(ticks))
 
 
 def _ticks(low: float, step: float, count: int) -> Scale:

@@ -7,6 +7,7 @@ from typing import Any
 
 from .._validate import instance, short
 from . import plots
+from .drawing import DRAWS
 from .markup import inert, output, still_image
 from .saving import save
 
@@ -41,7 +42,7 @@ class Output:
 
     def _in_page(self, nonce: str = "") -> str:
         """Return the HTML for a page whose security policy permits only scripts with this nonce."""
-        still = still_image(plots.palette_png(self.still), self.data["alt"])
+        still = still_image(plots.palette_png(self.still), self.data["alt"]) if DRAWS else ""
         return output(self.call, self.id, self.text, still, nonce)
 
     def save(self, path: str | os.PathLike[str]) -> None:

@@ -10,15 +10,10 @@ from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
-from matplotlib.axes import Axes
-from matplotlib.figure import Figure
-from matplotlib.lines import Line2D
-from matplotlib.text import Text
-from matplotlib.ticker import MaxNLocator
-from matplotlib.transforms import offset_copy
 
 from .._arrays import Bools, Floats, Ints
 from ..motion.recording import Jump, Recording
+from .drawing import DRAWS, Axes, Figure, Line2D, MaxNLocator, Text, offset_copy
 from .palette import ALARM, INK, JOINT_STYLES, PANEL_GRID, REMARK, SOFT
 from .panel_words import (
     PER,
@@ -44,12 +39,14 @@ class Panel:
     labels   the labels of the limits that it shows, as (text, limit, 1 for above or -1 for below
              the limit); they are placed later
     facts    its sentences in the alt text
+    alarm    whether one of them is about a limit that is exceeded, or about a spike
     """
 
     ax: Axes
     heading: Text
     labels: list[tuple[str, float, int]]
     facts: list[str]
+    alarm: bool
 
 
 def without_spikes(recording: Recording, kind: str, values: Floats) -> Floats:
@@ -103,7 +100,7 @@ def draw_panel(
     for i, joint in enumerate(joints):
         style = JOINT_STYLES[joint % len(JOINT_STYLES)]
         line = (0, style["dash"]) if style["dash"] else "-"
-        labels += _band(ax, limits[i], values[:, i], joint, unit_text, style["color"])
+        labels += _band(ax, (low, high), limits[i], values[:, i], joint, unit_text, style["color"])
         ax.plot(
             t,
             values[:, i],
@@ -123,6 +120,7 @@ def draw_panel(
         *spike_words(recording, kind, joints, spikes, values, unit),
         *corner_words(recording, kind, joints, unit, size, np.isnan(values)),
     ]
+    alarm = bool(past.any() or spikes.any())
     heading = ax.text(
         0.006,
         1.02,
@@ -130,18 +128,20 @@ def draw_panel(
         transform=ax.transAxes,
         fontsize=9,
         va="bottom",
-        color=ALARM if past.any() or spikes.any() else REMARK,
+        color=ALARM if alarm else REMARK,
     )
     facts = [
         f"{remark}." if remark.startswith("q") else f"{remark[0].upper()}{remark[1:]}."
         for remark in said
     ]
     words = range_words(recording, kind, name, joints, unit_text, size)
-    return Panel(ax, heading, labels, [words, *facts])
+    return Panel(ax, heading, labels, [words, *facts], alarm)
 
 
 def lay_out(fig: Figure, panels: Sequence[Panel], title: str | None) -> None:
     """Set the margins (inches), the title, and the names at the ends of curves or in a legend."""
+    if not DRAWS:
+        return
     legend = not all(_ends_in_view(panel.ax) for panel in panels)
     width, height = fig.get_size_inches()
     lines = _write_title(fig, title, height) if title else 0
@@ -223,12 +223,18 @@ def _view(values: Floats, kind: str) -> tuple[float, float]:
 
 
 def _band(
-    ax: Axes, limits: Floats, values: Floats, joint: int, unit: str, color: str
+    ax: Axes,
+    view: tuple[float, float],
+    limits: Floats,
+    values: Floats,
+    joint: int,
+    unit: str,
+    color: str,
 ) -> Iterator[tuple[str, float, int]]:
     """Shade a strip beyond a limit, and yield the labels. It is only a strip, because in a panel
     with six joints, values beyond the limit of one joint are inside the limits of another.
     """
-    low, high = ax.get_ylim()
+    low, high = view
     near = near_limits(
         limits, np.nanmin(values, initial=np.inf), np.nanmax(values, initial=-np.inf), low, high
     )

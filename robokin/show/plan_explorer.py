@@ -10,7 +10,6 @@ from collections.abc import Mapping
 from typing import Any
 
 import numpy as np
-from matplotlib.collections import LineCollection, PolyCollection
 
 from .._arrays import ArrayLike, Bools, Floats
 from .._validate import floats, instance
@@ -21,6 +20,7 @@ from ..jobs.obstacles.ways import nearest_approach, unchecked_path
 from ..units import deg, in_words, length_unit, mm
 from . import plots
 from .camera import VIEW, extent, project, scene_data
+from .drawing import LineCollection, PolyCollection
 from .explorer import control
 from .explorer_page import PlanPage
 from .live import Answer, Live, Question

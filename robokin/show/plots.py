@@ -10,14 +10,7 @@ import textwrap
 from collections.abc import Iterable, Sequence
 from typing import Any
 
-import matplotlib
 import numpy as np
-from matplotlib.axes import Axes
-from matplotlib.backends.backend_agg import FigureCanvasAgg
-from matplotlib.figure import Figure as MatplotlibFigure
-from matplotlib.rcsetup import cycler
-from matplotlib.text import Text
-from PIL import Image
 
 from .._arrays import ArrayLike, Floats
 from .._validate import instance, length, positive, short, warn_if_degrees
@@ -28,6 +21,8 @@ from . import layers
 from .arguments import Targets, named_targets
 from .camera import arm_points, extent, flange, is_flat
 from .checks import if_given, in_sight, plain, samples, sentence, several
+from .drawing import DRAWS, STORED, Axes, FigureCanvasAgg, Image, Text, cycler, rc_context, require
+from .drawing import Figure as PlainFigure
 from .markup import figure_image
 from .palette import COMPARED, FAINT, INK, JOINT_STYLES, PAPER, SCALE, SOFT, TITLE
 from .scene import Scene, number
@@ -79,7 +74,7 @@ def wrapped(words: str, width: float, size: float) -> str:
     return "\n".join(textwrap.fill(line, most) for line in words.split("\n"))
 
 
-class Figure(MatplotlibFigure):
+class Figure(PlainFigure):
     """A Matplotlib figure that has alt text and displays itself in a notebook."""
 
     def __init__(self, alt: str, **keywords: Any) -> None:
@@ -93,7 +88,7 @@ class Figure(MatplotlibFigure):
         """
         if "projection" not in keywords:
             keywords = {"axes_class": Plot} | keywords
-        with matplotlib.rc_context(STYLE):
+        with rc_context(STYLE):
             plot = super().add_subplot(*place, **keywords)
         plot.set_anchor("W")  # a plot with true proportions is at the left, below its title
         return plot
@@ -105,6 +100,8 @@ class Figure(MatplotlibFigure):
         return super().suptitle(words, **look)
 
     def _repr_mimebundle_(self, include: Any = None, exclude: Any = None) -> dict[str, str]:
+        if not DRAWS:
+            return {"text/plain": self.alt, "application/x-robokin-figure": STORED}
         # JupyterLab 4.6 and the "lab" template of nbconvert 7.17 both ignore {"alt": ...} in the
         # metadata of an image/png output. Both keep <img alt> in text/html, even in an untrusted
         # notebook, and show it once.
@@ -140,12 +137,13 @@ def figure(alt: str, width: float = 9, height: float = 4) -> Figure:
     return Figure(plain(alt, "alt"), figsize=sizes)
 
 
-def palette_png(fig: MatplotlibFigure) -> bytes:
+def palette_png(fig: PlainFigure) -> bytes:
     """Return the figure as a PNG with a palette, which is a third of the size of a PNG without one.
 
     Pillow's octree keeps the colours of thin lines to within 1/100; its median cut turns the green
     of a triad blue.
     """
+    require()
     canvas: Any = fig.canvas
     canvas.draw()
     image = Image.fromarray(np.asarray(canvas.buffer_rgba())).convert("RGB")

@@ -7,9 +7,6 @@ from collections.abc import Mapping, Sequence
 from typing import Any
 
 import numpy as np
-from matplotlib.axes import Axes
-from matplotlib.lines import Line2D
-from matplotlib.patches import Circle, Polygon
 
 from .._arrays import ArrayLike, Floats
 from ..arms.arm import Arm
@@ -17,6 +14,7 @@ from ..transform import Transform
 from ..units import deg, length_unit
 from . import layers
 from .camera import STRAIGHT, VIEW, View, arm_points, project
+from .drawing import DRAWS, Axes, Circle, Line2D, Polygon
 from .palette import (
     AXIS_COLORS,
     FAINT,
@@ -238,6 +236,8 @@ class Scene:
         """Draw floor, scale and labels, and set the limits. With `fit`, a (width, height) in
         inches, the figure shrinks to its content.
         """
+        if not DRAWS:
+            return
         low, high, step = self._floor()
         name, unit = length_unit(self.size)
         self._grid(low, high, step, unit)
