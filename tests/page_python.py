@@ -80,8 +80,9 @@ class Lab:
             one, other = (Shown(each["outputs"]) for each in (here, there))
             if one.error:
                 yield "cpython", source, f"[{k}] {one.error} in CPython"
-            if other.error:
+            elif other.error:
                 yield "error", source, f"[{k}] {other.error}"
+            if one.error or other.error:
                 continue
             if one.text != other.text:
                 yield "text", source, f"[{k}] {_first_difference(one.text, other.text)}"
@@ -124,7 +125,7 @@ class Shown:
             elif "application/x-robokin-figure" in data:
                 self.text += f"figure: {data['text/plain']}\n"
             elif not calls:
-                self.text += output.get("text") or data["text/plain"]
+                self.text += output.get("text", data.get("text/plain", ""))
 
 
 def apart(one, other, place="view"):
@@ -144,7 +145,8 @@ def apart(one, other, place="view"):
         near = abs(one - other) <= NEAR * max(1, abs(one))
         return None if near else f"{place}: {one!r} and {other!r}"
     else:
-        return None if one == other else f"{place}: {str(one)[:60]!r} and {str(other)[:60]!r}"
+        same = type(one) is type(other) and one == other
+        return None if same else f"{place}: {str(one)[:60]!r} and {str(other)[:60]!r}"
     return next(filter(None, found), None)
 
 
