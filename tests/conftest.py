@@ -2,10 +2,14 @@
 
 `browser`  headless Chromium through Playwright. Without Chromium, its tests are skipped and the
            summary says so in red; under CI (the environment variable CI is set) they fail.
+`site`     the site, built once for all workers. Without a network and without the files of Python
+           in the cache, its tests are skipped ("not run: no files"); under CI they fail.
 `jupyter`  a JupyterLab server on a copy of notebooks/, with its own settings, trust and runtime
            files.
 """
 
+import functools
+import http.server
 import importlib.util
 import json
 import os
@@ -13,6 +17,7 @@ import shutil
 import socket
 import subprocess
 import sys
+import threading
 import time
 import urllib.request
 from pathlib import Path
@@ -49,6 +54,8 @@ FLAGS = [
     "--disable-sync",
 ]
 NO_BROWSER = "no Chromium on this machine"
+REPOSITORY = "https://example.org/robots/robokin"  # what the site's pages say
+NO_FILES = "could not be fetched"  # said by the site's command
 
 
 @pytest.fixture(scope="session")
@@ -96,6 +103,52 @@ def exported(tmp_path_factory):
     return Exported(tmp_path_factory)
 
 
+@pytest.fixture(scope="session")
+def site(tmp_path_factory):
+    """The folder of the site, which all workers of pytest-xdist share."""
+    shared = _shared(tmp_path_factory) / "site"
+    folder, told = shared / "labs", shared / "told.json"
+    try:
+        shared.mkdir()
+    except FileExistsError:
+        until(told.exists, "another worker did not build the site")
+    else:
+        command = [sys.executable, "-m", "robokin.course", "site", str(folder)]
+        command += ["--repository", REPOSITORY]
+        run = subprocess.run(command, text=True, capture_output=True, timeout=900)
+        part = shared / "told.part"
+        part.write_text(json.dumps([run.returncode, run.stdout, run.stderr]))
+        part.rename(told)
+    code, said, complaints = json.loads(told.read_text())
+    if NO_FILES in complaints and not os.environ.get("CI"):
+        pytest.skip(f"not run: no files: {complaints}")
+    assert (code, complaints) == (0, "")
+    assert str(folder / "index.html") in said
+    return folder
+
+
+@pytest.fixture(scope="session")
+def site_address(site):
+    """The address of the site on a plain server: under a sub-path, and without compression."""
+
+    class Quiet(http.server.SimpleHTTPRequestHandler):
+        def log_message(self, *_):
+            pass
+
+    with http.server.ThreadingHTTPServer(
+        ("127.0.0.1", 0), functools.partial(Quiet, directory=str(site.parent))
+    ) as server:
+        threading.Thread(target=server.serve_forever, daemon=True).start()
+        yield f"http://127.0.0.1:{server.server_port}/{site.name}/"
+        server.shutdown()
+
+
+def _shared(factory):
+    """The folder for temporary files that all workers of pytest-xdist share."""
+    base = factory.getbasetemp()
+    return base.parent if "PYTEST_XDIST_WORKER" in os.environ else base
+
+
 class Exported(dict):
     """Pages that are exported on first use. All workers of pytest-xdist share them: a page appears
     in the shared folder when it is complete.
@@ -103,9 +156,7 @@ class Exported(dict):
 
     def __init__(self, factory):
         self.own = factory.mktemp("exported")
-        base = factory.getbasetemp()
-        base = base.parent if "PYTEST_XDIST_WORKER" in os.environ else base
-        self.shared = base / "pages"
+        self.shared = _shared(factory) / "pages"
         self.shared.mkdir(exist_ok=True)
 
     def __missing__(self, name):
@@ -291,6 +342,7 @@ LONGEST = (
     "test_rerun.py",
     "test_browser.py",
     "test_site.py",
+    "test_in_page.py",
     "test_predictions.py",
     "test_course_labs.py",
     "test_live.py",

@@ -2,8 +2,6 @@
 checked.
 """
 
-import functools
-import http.server
 import importlib
 import inspect
 import json
@@ -11,14 +9,13 @@ import re
 import shutil
 import subprocess
 import sys
-import threading
 from html.parser import HTMLParser
 from types import SimpleNamespace
 from urllib.parse import unquote, urlsplit
 
 import pytest
 from axe_playwright_python.sync_playwright import Axe
-from conftest import NOTEBOOKS, awake, until
+from conftest import NOTEBOOKS, REPOSITORY, awake, until
 from test_browser import NEXT_FRAME, PLAYER, _opens, _seen, _settled
 from test_export import FETCHED, formulas
 
@@ -32,27 +29,16 @@ LABS = [name for name in NAMES if "/" not in name]
 MODULES = making._modules()
 PAGES = ["index", *NAMES, "api/index", *(f"api/{name}" for name in MODULES), "search"]
 WIDTHS = (1366, 900, 390)
-REPOSITORY = "https://example.org/robots/robokin"
 
 
-def command(folder, *flags, **more):
+def command(folder, **more):
     return subprocess.run(
-        [sys.executable, "-m", "robokin.course", "site", str(folder), *flags],
+        [sys.executable, "-m", "robokin.course", "site", str(folder)],
         text=True,
         capture_output=True,
         timeout=900,
         **more,
     )
-
-
-@pytest.fixture(scope="session")
-def site(tmp_path_factory):
-    """The site, built once."""
-    folder = tmp_path_factory.mktemp("site") / "labs"
-    run = command(folder, "--repository", REPOSITORY)
-    assert (run.returncode, run.stderr) == (0, "")
-    assert str(folder / "index.html") in run.stdout
-    return folder
 
 
 class Parsed(HTMLParser):
@@ -236,19 +222,8 @@ def _of_robokin(one):
 
 
 @pytest.fixture(scope="module")
-def address(site):
-    """The address at which the site is served."""
-
-    class Quiet(http.server.SimpleHTTPRequestHandler):
-        def log_message(self, *_):
-            pass
-
-    with http.server.ThreadingHTTPServer(
-        ("127.0.0.1", 0), functools.partial(Quiet, directory=str(site))
-    ) as server:
-        threading.Thread(target=server.serve_forever, daemon=True).start()
-        yield f"http://127.0.0.1:{server.server_port}/"
-        server.shutdown()
+def address(site_address):
+    return site_address
 
 
 @pytest.fixture(scope="module")

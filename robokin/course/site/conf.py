@@ -45,7 +45,7 @@ html_theme_options = {
 }
 SHARED = PurePosixPath(robokin.course.__file__).parent / "templates"  # also used by exported pages
 html_static_path = ["static", f"{SHARED}/narrow.css", f"{SHARED}/narrow.js"]
-html_css_files = ["narrow.css", "site.css"]
+html_css_files = ["narrow.css", "site.css", "cells.css"]
 html_js_files = ["site.js"]
 html_favicon = "static/arm.svg"
 html_copy_source = html_show_sourcelink = html_show_copyright = False

@@ -84,6 +84,8 @@ def assets(folder: Path) -> dict[str, int]:
     """
     core = dict(_of_tar(package(PYODIDE)))
     made = {name: core[f"package/{name}"] for name in CORE}
+    lock = json.loads(made["pyodide-lock.json"])
+    made["pyodide-lock.json"] = json.dumps(lock | {"packages": {}}).encode()  # no others to be had
     numpy = dict(_of_tar(package(NUMPY)))
     inner = next(data for name, data in numpy.items() if name.startswith("package/pkg/"))
     packages = "lib/python3.11/site-packages/"

@@ -36,13 +36,13 @@ export class Cell {
     this.editor = null;
     if (data.asks) return;
     this.input = /** @type {HTMLElement} */ (place.querySelector(".cell_input"));
-    this.says = made("p", "rk-says");
+    this.says = element("p", "rk-says");
     this.says.setAttribute("role", "status");
     this.runs = this.button("Run", this.run);
     this.stops = this.button("Stop", stop);
     this.edits = this.button("Edit", () => this.edit(true));
     this.resets = this.button("Reset", () => this.reset());
-    this.bar = made("div", "rk-bar");
+    this.bar = element("div", "rk-bar");
     this.bar.append(this.runs, this.stops, this.edits, this.resets);
     this.stops.hidden = this.resets.hidden = true;
     if (this.stored) this.stored.before(this.bar, this.says);
@@ -56,7 +56,7 @@ export class Cell {
 
   /** @type {(label: string, act: () => void) => HTMLButtonElement} */
   button(label, act) {
-    const button = made("button", "");
+    const button = element("button", "");
     button.type = "button";
     button.textContent = label;
     if (this.name) button.setAttribute("aria-label", `${label} ${this.name}`);
@@ -66,7 +66,8 @@ export class Cell {
 
   /** @param {KeyboardEvent} event */
   press(event) {
-    const inEditor = event.target instanceof HTMLTextAreaElement && this.input?.contains(event.target);
+    const inEditor =
+      event.target instanceof HTMLTextAreaElement && this.input?.contains(event.target);
     if (!inEditor || event.key !== "Enter" || !event.shiftKey) return;
     event.preventDefault();
     event.stopPropagation();
@@ -104,7 +105,7 @@ export class Cell {
     const fold = input.closest("details");
     if (fold && focus) fold.open = true;
     if (!this.editor) {
-      const place = made("div", "rk-editor");
+      const place = element("div", "rk-editor");
       input.classList.add("rk-edited");
       this.editor = editor(place, this.text, `code of ${this.name}`, text => this.changed(text));
       await this.editor;
@@ -186,7 +187,7 @@ export class Cell {
  * @param {T} tag
  * @param {string} name
  */
-export function made(tag, name) {
+export function element(tag, name) {
   const node = document.createElement(tag);
   if (name) node.className = name;
   return node;

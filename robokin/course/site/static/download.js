@@ -38,7 +38,7 @@ export const withGuesses = (text, guessed) =>
   text.replace(ASKS, (call, quote, name) => {
     const choice = guessed.get(name);
     if (choice === undefined) return call;
-    const given = /^[a-z]$/.test(choice) ? `"${choice}"` : String(Number(choice));
+    const given = /^[a-z]$/.test(choice) ? `"${choice}"` : String(parseFloat(choice));
     return `predict(${quote}${name}${quote}, ${given})`;
   });
 

@@ -27,7 +27,7 @@ const HELP = "rk-editor-help";
  * @returns {Promise<Editor>}
  */
 export async function editor(place, text, label, changed) {
-  const made = await (prism(place, text).catch(() => plain(place, text)));
+  const made = await prism(place, text).catch(() => plain(place, text));
   const {box} = made;
   box.setAttribute("aria-label", label);
   box.setAttribute("aria-describedby", HELP);

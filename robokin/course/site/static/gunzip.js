@@ -10,8 +10,6 @@ export function gunzip(packed, type = "application/octet-stream") {
   const [first, second] = new Uint8Array(packed, 0, 2),
     whole = new Blob([packed]).stream();
   const stream =
-    first === 0x1f && second === 0x8b
-      ? whole.pipeThrough(new DecompressionStream("gzip"))
-      : whole;
+    first === 0x1f && second === 0x8b ? whole.pipeThrough(new DecompressionStream("gzip")) : whole;
   return new Response(stream, {headers: {"content-type": type}});
 }

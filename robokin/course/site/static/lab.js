@@ -1,7 +1,7 @@
 // Runs the cells of a lab in its page. site.js loads this module if the page comes from a server;
 // conf.py writes the cells and the sizes of Python's files into the page.
 
-import {Cell, made} from "./cell.js";
+import {Cell, element} from "./cell.js";
 import {notebook, offer} from "./download.js";
 import {elsewhere} from "./edits.js";
 import {Ended, Python, mb} from "./python.js";
@@ -11,7 +11,7 @@ import {Views} from "./views.js";
 /** @import {File} from "./python.js" */
 /** @import {Output} from "./outputs.js" */
 /** @typedef {{file: string, version: string, python: File[], sympy: File[], cells: CellData[]}} LabData */
-/** @typedef {{outputs: Output[], views?: string[]}} Result */
+/** @typedef {{outputs: Output[]}} Result */
 
 const ABOVE = "A cell above that this one needs ended with an error.";
 
@@ -21,7 +21,7 @@ class Lab {
     this.data = data;
     this.python = new Python([...data.python, ...data.sympy], data.version, () => this.ended());
     this.views = new Views(this.python);
-    this.note = made("p", "rk-says");
+    this.note = element("p", "rk-says");
     this.note.setAttribute("role", "status");
     /** @type {?Cell} */
     this.running = null;
@@ -29,7 +29,14 @@ class Lab {
       const place = /** @type {HTMLElement} */ (document.getElementById(cell.place));
       const complain = (/** @type {string} */ why) => (this.note.textContent = why);
       const run = (/** @type {Cell} */ each) => void this.run(each);
-      return new Cell(cell, `cell ${k + 1}`, place, run, () => this.python.end("stopped"), complain);
+      return new Cell(
+        cell,
+        `cell ${k + 1}`,
+        place,
+        run,
+        () => this.python.end("stopped"),
+        complain,
+      );
     });
     elsewhere((id, edit) => this.cells.find(each => each.data.id === id)?.follow(edit));
     this.introduce();
@@ -37,10 +44,15 @@ class Lab {
 
   /** The lines above the lab: what one can do, what it costs, and the reader's notebook. */
   introduce() {
-    const {data, note} = this,
-      line = made("p", "rk-intro"),
+    const {cells, data, note} = this,
+      line = element("p", "rk-intro"),
       more = data.sympy.length ? `, and SymPy, ${mb(total(data.sympy))} MB` : "";
-    const button = made("button", "");
+    for (const {bar} of cells) {
+      const cost = element("small", "rk-cost");
+      cost.textContent = `The first run fetches ${this.python.megabytes} MB.`;
+      bar?.append(cost);
+    }
+    const button = element("button", "");
     button.type = "button";
     button.textContent = "Download my notebook";
     button.addEventListener("click", () => void this.download());
@@ -75,6 +87,7 @@ class Lab {
     cell.busy(true);
     try {
       await this.python.start(sentence => cell.say(sentence));
+      for (const cost of document.querySelectorAll(".rk-cost")) cost.remove();
       if (await this.prepare(cell)) {
         cell.say("Running …");
         await this.execute(cell, true);
@@ -97,7 +110,9 @@ class Lab {
     const needs = await this.python.call("needs", texts, cells.indexOf(cell));
     const stopped = needs.map(k => cells[k]).find(each => each.stopped);
     if (stopped) {
-      cell.say(`This cell needs ${stopped.name}, which was stopped.`, [["Show it", () => reveal(stopped)]]);
+      cell.say(`This cell needs ${stopped.name}, which was stopped.`, [
+        ["Show it", () => reveal(stopped)],
+      ]);
       return false;
     }
     for (const [done, k] of needs.entries()) {
@@ -124,21 +139,32 @@ class Lab {
         throw error;
       });
     const fine = !result.outputs.some(({output_type}) => output_type === "error");
-    for (const id of result.views ?? []) this.views.learn(id);
     if (asked || !fine || cell.text !== cell.data.source) cell.show(result.outputs);
+    this.views.learn(result.outputs);
     return fine;
   }
 
   /** Says why a cell has no result. @type {(cell: Cell, why: Ended) => void} */
   explain(cell, why) {
+    cell.show(null);
     if (why.how !== "check") return cell.say(why.message);
-    cell.show([{output_type: "stream", name: "stdout", text: why.message}]);
-    cell.say("The check was stopped, and Python was ended. It starts again with your next Run.");
+    const [, name] = /\bcheck\(\s*["']([\w.]+)["']/.exec(cell.text) ?? ["", "The answer"];
+    cell.show([verdict(`${name}: does not hold.`, why.message)]);
+    cell.say("Python was ended. It starts again with your next Run.");
   }
 
   ended() {
     this.views.sleep();
   }
+}
+
+/** A verdict in the style of the engine's. @type {(first: string, sentence: string) => Output} */
+function verdict(first, sentence) {
+  const made = element("div", "rk-verdict"),
+    bold = document.createElement("b");
+  bold.textContent = first;
+  made.append(bold, document.createElement("br"), sentence);
+  return {output_type: "display_data", data: {"text/html": made.outerHTML}};
 }
 
 /** @param {File[]} files */

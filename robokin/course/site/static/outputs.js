@@ -22,7 +22,8 @@ export function shown(outputs, stored) {
   const pictures = [...(stored?.querySelectorAll(".robokin-figure, .output > img") ?? [])];
   for (const output of outputs) {
     if (output.output_type === "stream") made.append(text(output.text, output.name));
-    else if (output.output_type === "error") made.append(text(output.traceback.join("\n"), "error"));
+    else if (output.output_type === "error")
+      made.append(text(output.traceback.join("\n"), "error"));
     else made.append(...data(output.data, pictures));
   }
   return made;

@@ -1,7 +1,10 @@
 // Views that ask Python (live.js in robokin.show): the page is their kernel. Such a view says its id
 // when it is created; it is active while Python knows the id.
 
+/** @import {Output} from "./outputs.js" */
 /** @import {Python} from "./python.js" */
+
+const VIEW = /data-player=\\"([0-9a-f]{12})\\"/g;
 
 export class Views {
   /** @param {Python} python */
@@ -17,13 +20,15 @@ export class Views {
     });
   }
 
-  /** Activates the views with this id, those of the page and later ones. @param {string} id */
-  learn(id) {
-    this.known.add(id);
-    const roots = /** @type {NodeListOf<HTMLElement>} */ (
-      document.querySelectorAll(`[data-player="${id}"][data-ready]`)
-    );
-    for (const root of roots) this.wake(id, root);
+  /** Activates the views in these outputs, where they are in the page. @param {Output[]} outputs */
+  learn(outputs) {
+    for (const [, id] of JSON.stringify(outputs).matchAll(VIEW)) {
+      this.known.add(id);
+      const roots = /** @type {NodeListOf<HTMLElement>} */ (
+        document.querySelectorAll(`[data-player="${id}"][data-ready]`)
+      );
+      for (const root of roots) this.wake(id, root);
+    }
   }
 
   /** @type {(id: string, root: HTMLElement) => void} */
@@ -33,9 +38,7 @@ export class Views {
     const send = (n, question) =>
       void this.python.call("ask", id, question).then(
         answer =>
-          root.dispatchEvent(
-            new CustomEvent("robokin-answer", {detail: {n, answer, buffers: []}}),
-          ),
+          root.dispatchEvent(new CustomEvent("robokin-answer", {detail: {n, answer, buffers: []}})),
         () => {}, // Python ended, and the view has been told
       );
     root.dispatchEvent(new CustomEvent("robokin-wake", {detail: send}));

@@ -84,8 +84,9 @@ async function module(packed) {
 /** Memory beyond ROOM is refused, and the page ends this worker. */
 function limitMemory() {
   const {grow} = WebAssembly.Memory.prototype;
+  /** @this {WebAssembly.Memory} @param {number} pages */
   WebAssembly.Memory.prototype.grow = function (pages) {
-    if (this.buffer.byteLength + 65536 * Number(pages) > ROOM) {
+    if (this.buffer.byteLength + 65536 * pages > ROOM) {
       port.postMessage({full: true});
       throw new RangeError("no more memory in this page");
     }
@@ -124,7 +125,8 @@ def _session():
     the = session.Session()
     page.began = lambda limit, sentence: js.robokinCheck(limit, sentence)
     page.ended = lambda: js.robokinCheck(0, "")
-    calls = {"needs": cells.needs, "run": the.run, "ask": the.ask}
+    needs = lambda texts, i: cells.needs(texts, i, the.names())
+    calls = {"needs": needs, "run": the.run, "ask": the.ask}
     return lambda call, given: json.dumps(calls[call](*json.loads(given)))
 
 _session()
