@@ -151,6 +151,7 @@ def test_endless_recursion_is_short():
         ("%timeit 1", "SyntaxError", "%timeit 1 is a command for Jupyter"),
         ("import tensorflow_of_old", "ModuleNotFoundError", "only Python, NumPy and robokin"),
         ("raise OSError(138, 'emscripten does not support processes.')", "OSError", "programs"),
+        ("open('tasks/one.json')", "FileNotFoundError", "no files beside the lab"),
         ("import numpy as np\nnp.ones(10**17)", "MemoryError", "not enough memory"),
         ("raise ValueError('Maximum allowed dimension exceeded')", "MemoryError", "memory"),
         ("raise SystemExit", "SystemExit", "does nothing"),

@@ -72,10 +72,18 @@ class BlankFigure(Blank):
         self, rows: int = 1, columns: int = 1, squeeze: bool = True, **keywords: Any
     ) -> Any:
         """Return one plot or an array of plots."""
-        plots = np.array([[Blank() for _ in range(columns)] for _ in range(rows)], dtype=object)
+        plots = np.full((rows, columns), Blank(), dtype=object)
         if not squeeze:
             return plots
         return plots[0, 0] if plots.size == 1 else plots.squeeze()
+
+    def add_subplot(self, *args: Any, **keywords: Any) -> Blank:
+        """Return a plot."""
+        return Blank()
+
+    def suptitle(self, *args: Any, **keywords: Any) -> Blank:
+        """Write nothing."""
+        return Blank()
 
     def get_figwidth(self) -> float:
         """Return a width in inches."""

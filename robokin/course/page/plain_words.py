@@ -33,6 +33,8 @@ def told(error: BaseException, source: str) -> tuple[str, str]:
         return "MemoryError", f"There is not enough memory for this. {says}".strip()
     if isinstance(error, OSError) and "emscripten" in says:
         return kind, f"A page cannot start other programs. {JUPYTERLAB}"
+    if isinstance(error, FileNotFoundError):
+        return kind, f"{error.filename}: a page has no files beside the lab. {JUPYTERLAB}"
     if isinstance(error, SystemExit):
         return kind, "The cell ended Python's program, which does nothing here."
     return kind, says
