@@ -129,7 +129,7 @@ class Lab:
         return "\n".join(one.inner_text() for one in outputs).strip()
 
     def says(self, name):
-        return self.cell(name).locator(".rk-says").inner_text()
+        return self.cell(name).locator(".rk-status").inner_text()
 
     def source(self, name):
         cells = json.loads(self.page.locator("#rk-lab").text_content())["cells"]
@@ -175,7 +175,7 @@ def test_a_cell_runs_with_what_it_needs(lab):
 def record(lab, name):
     """Record what a cell says; the result returns the sentences."""
     lab.cell(name).evaluate("""cell => {
-        const says = cell.querySelector(".rk-says");
+        const says = cell.querySelector(".rk-status");
         cell.told = [];
         new MutationObserver(() => cell.told.push(says.textContent))
             .observe(says, {childList: true}); }""")
@@ -226,7 +226,7 @@ def test_what_a_page_cannot_do_has_a_sentence(lab, source, words):
 
 def test_python_can_be_stopped_and_starts_again(lab):
     lab.run(POINT)
-    lab.edit("elementary", "import time\nwhile True:\n    time.sleep(0)")
+    lab.edit("elementary", lab.source("elementary") + "\nwhile True:\n    pass")
     lab.button("elementary", "Run").click()
     lab.button(POINT, "Run").click()
     assert "still running cell 4" in lab.says(POINT)
@@ -287,7 +287,7 @@ def test_changes_survive_and_go_into_the_download(lab, context, site_address):
     lab.edit(POINT, text)
     ask = lab.page.locator(".rk-ask").first
     ask.scroll_into_view_if_needed()
-    ask.locator("input").first.check()
+    ask.locator("input").fill("90")
     ask.get_by_role("button", name="This is my guess").click()
     with lab.page.expect_download() as download:
         lab.page.get_by_role("button", name="Download my notebook").click()
@@ -298,7 +298,7 @@ def test_changes_survive_and_go_into_the_download(lab, context, site_address):
     changed = [own for own, lab_cell in pairs if own != lab_cell]
     sources = {cell["id"]: "".join(cell["source"]) for cell in changed}
     assert sources.pop(POINT) == text
-    assert len(sources) == 1 and all('.p5", "a")' in source for source in sources.values())
+    assert len(sources) == 1 and all('.p5", 90)' in source for source in sources.values())
     assert all(cell["outputs"] == [] for cell in changed)
     lab.page.reload()
     lab.cell(POINT).locator("textarea").wait_for()
@@ -340,9 +340,9 @@ def test_a_browser_that_stores_nothing_says_so(browser, site_address, script, wh
     context.add_init_script(f"({script})()")
     lab = Lab(context, site_address)
     lab.edit(POINT, "print(1)")
-    note = lab.page.locator(".rk-intro ~ .rk-says").first
+    note = lab.page.locator(".rk-intro ~ .rk-status").first
     assert why in note.inner_text() and "Download my notebook" in note.inner_text()
-    assert lab.errors == []
+    assert set(lab.errors) <= {"denied"}, "only furo's own script may ask the storage in vain"
     context.close()
 
 
@@ -459,10 +459,8 @@ def test_screen_reader_can_use_cells(browser, site_address, scheme):
     context.close()
 
 
-@pytest.mark.parametrize(
-    "name, cell", [("10_obstacle_avoidance", None), ("08_visit_and_collect", None)]
-)
-def test_a_view_that_asks_python_wakes_and_sleeps(browser, site_address, name, cell):
+@pytest.mark.parametrize("name", ["08_visit_and_collect", "10_obstacle_avoidance"])
+def test_a_view_that_asks_python_wakes_and_sleeps(browser, site_address, name):
     context = browser.new_context(viewport={"width": 1366, "height": 900})
     lab = Lab(context, site_address, name)
     awake(lab.page)

@@ -36,7 +36,7 @@ export class Cell {
     this.editor = null;
     if (data.asks) return;
     this.input = /** @type {HTMLElement} */ (place.querySelector(".cell_input"));
-    this.says = element("p", "rk-says");
+    this.says = element("p", "rk-status");
     this.says.setAttribute("role", "status");
     this.runs = this.button("Run", this.run);
     this.stops = this.button("Stop", stop);

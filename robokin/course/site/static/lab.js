@@ -21,7 +21,7 @@ class Lab {
     this.data = data;
     this.python = new Python([...data.python, ...data.sympy], data.version, () => this.ended());
     this.views = new Views(this.python);
-    this.note = element("p", "rk-says");
+    this.note = element("p", "rk-status");
     this.note.setAttribute("role", "status");
     /** @type {?Cell} */
     this.running = null;

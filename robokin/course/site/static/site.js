@@ -17,8 +17,10 @@
     why = document.querySelector(".rk-asleep-cells");
   if (!document.getElementById("rk-lab")) return;
   if (location.protocol !== "file:") void import(new URL("lab.js", here).href);
-  else if (why)
+  else if (why) {
     why.textContent =
       "This page was opened from a folder, so its cells cannot run here. They run if you open the " +
       "page at a web address.";
+    why.classList.add("rk-said");
+  }
 })();
