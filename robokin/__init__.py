@@ -44,6 +44,7 @@ from .motion import (
     ptp,
     quintic,
     record,
+    shortest_duration,
     trapezoidal,
 )
 from .quaternion import Quaternion
@@ -86,6 +87,7 @@ __all__ = [
     "record",
     "representative",
     "scara_arm",
+    "shortest_duration",
     "singular_values",
     "spbu_arm",
     "spherical_wrist",

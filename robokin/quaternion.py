@@ -67,8 +67,9 @@ class Quaternion(Batch):
     @classmethod
     def _of(cls, wxyz: Floats) -> "Quaternion":
         """Make a Quaternion from unit quaternions, without checks; NaN rows are accepted."""
-        self = object.__new__(cls)
-        vars(self)["wxyz"] = sealed(wxyz)
+        wxyz.setflags(write=False)  # without `sealed`: every pose that is taken from a batch
+        self = object.__new__(cls)  # comes through here, and a call costs a tenth of its time
+        self.__dict__["wxyz"] = wxyz
         return self
 
     @classmethod

@@ -51,8 +51,10 @@ class Transform(Batch):
         """Make a Transform from parts with the same batch shape, without checks; NaN rows are
         accepted.
         """
+        translation.setflags(write=False)  # without `sealed`, as in Quaternion._of
         self = object.__new__(cls)
-        vars(self).update(rotation=rotation, translation=sealed(translation))
+        fields = self.__dict__
+        fields["rotation"], fields["translation"] = rotation, translation
         return self
 
     @classmethod

@@ -234,8 +234,8 @@ def test_invalid_arguments_are_refused(changes, error, says):
 
 def test_summary_describes_the_still_picture():
     near, wide = view().data["summary"], view([(0.7, 1.8), (1.0, 1.2)]).data["summary"]
-    assert near.endswith("lever BA of Three levers comes as near as 0.0 mm, nearer than the 142.9 "
-                         "mm to keep.")  # fmt: skip
+    assert near.endswith("lever BA of Three levers comes as near as 0.0 mm, nearer than the "
+                         "required 142.9 mm.")  # fmt: skip
     least = clearance(ARM, path_through([(0.7, 1.8), (1.0, 1.2), K1]), H).min()
-    assert f"as near as {least / mm:.1f} mm, farther than the 142.9 mm to keep." in wide
+    assert f"as near as {least / mm:.1f} mm, farther than the required 142.9 mm." in wide
     assert clearance_explorer(ARM, START, K1, H).data["title"] == "From K to K1, past an obstacle H"

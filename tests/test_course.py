@@ -505,7 +505,7 @@ def test_inputs_count_as_used_even_if_the_result_is_almost_always_true(lab):
     assert check("made.4", lambda x, low: x <= low + 5).mistake is None
     assert check("made.4", lambda x, low: x <= 3).mistake == "low is not used"
     assert check("made.4", lambda x, low: low <= 3).mistake == "one answer to everything"
-    assert check("made.4", lambda x, low: not low <= x <= 3).mistake == "True and False exchanged"
+    assert check("made.4", lambda x, low: not low <= x <= 3).mistake == "True and False swapped"
 
 
 LOW_AND_HIGH = """\
@@ -625,7 +625,7 @@ WRITTEN = {
         planes,
         lambda x, y: np.arcsin(y / np.hypot(x, y)),
     ),
-    "x and y exchanged": ("np.arctan2(b, a)", planes, lambda x, y: np.arctan2(x, y)),
+    "x and y swapped": ("np.arctan2(b, a)", planes, lambda x, y: np.arctan2(x, y)),
     "the long way round": (
         "a + (wrapped(3 * b, a) - a) / 2",
         angles,
@@ -707,11 +707,11 @@ def test_submitted_test_must_accept_correct_programs_and_refuse_wrong_ones():
     assert check("made.3", lambda program: "yes").mistake == "another kind or shape"
     assert not check("made.3", lambda program: ...).answered
     verdict = check("made.3", lambda program: not good(program))
-    assert verdict.mistake == "True and False exchanged", (
+    assert verdict.mistake == "True and False swapped", (
         "the verdict must be the same whether or not a program raises an error"
     )
     verdict = check("made.3", lambda program: not _quietly(good, program))
-    assert verdict.mistake == "True and False exchanged" and verdict.points == 0
+    assert verdict.mistake == "True and False swapped" and verdict.points == 0
 
 
 def _quietly(test, program):

@@ -69,7 +69,7 @@ def test_no_belt_works_with_the_bin_of_the_lab(who):
     assert any(missed(*numbers, seed, BIN, most) for seed in seeds)
     assert check("conveyor.1", line(own, BIN, most), who=who).mistake in (
         "too few arms",
-        "the bound taken for enough",
+        "the bound is not enough",
     )
 
 
@@ -84,7 +84,7 @@ def test_mistakes_in_lines_are_named():
         "more arms than allowed": right | {"arms": most + 1},
         "too few arms": line(own, BIN, 1),  # more than one arm would be busy all the time
         "millimetres for metres": right | {"bin": [350, -450]},
-        "the bin stands elsewhere": right | {"bin": [0.5, -0.45]},
+        "the bin is somewhere else": right | {"bin": [0.5, -0.45]},
         "no number of arms for a line": right | {"arms": 0},
         "another kind or shape": right | {"arms": 2.5},
     }

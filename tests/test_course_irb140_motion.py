@@ -85,8 +85,8 @@ def test_blend_in_the_task_matches_that_of_the_document():
     wanted = exercise.right(0.05, "parabola")
     assert _gap(wanted, "parabola") == pytest.approx(50 * mm)
     assert exercise.code["law"]((0.05, "parabola"), 0.06, wanted) == (
-        "should be 0.06652: in the middle of the parabola the tool is then 50.0 mm from via; with "
-        "0.06 it is 45.1 mm"
+        "should be 0.06652, so that the tool is 50.0 mm from via in the middle of the parabola; "
+        "with 0.06, it is 45.1 mm from via"
     )
 
 
@@ -400,7 +400,7 @@ def test_answers_to_predictions_agree_with_other_methods():
     question = " ".join(filled(LAB.predictions["p2"])[0].split())
     told = f"Less than {line:.2f} s, but no less than PTP: the joints have to turn as far."
     assert _right("p2") == told and least < 0.6 * line
-    assert f"took {line:.2f} s; PTP took {least:.2f} s" in question
+    assert f"took {line:.2f} s; in PTP, it took {least:.2f} s" in question
 
     q0, q1 = np.zeros(6), np.zeros(6)
     q0[5], q1[5] = 350 * deg, 60 * deg

@@ -208,7 +208,7 @@ def test_no_test_passes_by_a_trick(name, monkeypatch):
         verdict = check(name, answer)
         assert not verdict.holds and verdict.says, (name, answer)
     assert check(name, silent).mistake == "returns None"
-    assert check(name, lambda program: not right(program)).mistake == "True and False exchanged"
+    assert check(name, lambda program: not right(program)).mistake == "True and False swapped"
     assert check(name, right).holds
 
 

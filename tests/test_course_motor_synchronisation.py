@@ -76,7 +76,7 @@ def test_removing_only_two_turns_is_not_enough():
         return before if x == y == 0 else min(ends, key=lambda a: abs(a - before))
 
     verdict = check("motor_synchronisation.1", posture(few))
-    assert not verdict.holds and verdict.mistake == "two turns at most are taken off"
+    assert not verdict.holds and verdict.mistake == "at most two turns are subtracted"
 
 
 @pytest.mark.parametrize("answer", [posture(right), posture(by_loops), by_package])
@@ -191,7 +191,7 @@ def looking(rows):
     [
         (lambda k: [k[0], k[-1]], "right in the first and the last row"),
         (lambda k: k[:-1], "the last pulse is lost"),
-        (lambda k: k[:15], "it stops half way"),
+        (lambda k: k[:15], "it stops halfway"),
     ],
 )
 def test_test_must_check_every_row(rows, name):

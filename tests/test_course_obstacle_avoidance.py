@@ -138,12 +138,12 @@ def _box(outlines, H):
         (_winding, "any turns, not an odd number"),
         (_strictly_convex, "no dent allowed"),
         (_open_upward, "the closing side left out"),
-        (_by_products, "a corner counts twice, or not at all"),
+        (_by_products, "a corner counted twice, or not at all"),
         (_areas, "no dent allowed"),
-        (_both_ways, "outside always"),
+        (_both_ways, "always outside"),
         (_returns_early, "any crossing"),
         (_box, "the box around it"),
-        (lambda outlines, H: _upward(outlines[-1], H), "the last outline decides"),
+        (lambda outlines, H: _upward(outlines[-1], H), "only the last outline"),
     ],
 )
 def test_mistakes_in_point_in_polygon_tests_are_named(wrong, named):

@@ -130,7 +130,7 @@ def test_every_student_can_solve_the_task():
         ({"distance": 290}, "mm for m"),
         ({"distance": -0.29}, "a negative distance"),
         ({"distance": 0.6}, "out of reach"),
-        ({"distance": 0.375}, "too close to the stretched arm"),
+        ({"distance": 0.375}, "too close to the straight arm"),
         ({"distance": 0.15}, "past a limit: joint 2"),
         ({"elbow": "other"}, "the wrong elbow"),
         ({"elbow": 0}, "another kind or shape"),

@@ -241,10 +241,10 @@ def test_too_few_turns_are_reported(most, name):
 
 def test_message_about_a_case_states_degrees_and_the_side_of_the_elbow():
     case = check("scara_motion.1", _zero_is_negative).case
-    assert "joint 2 is at 0.0° in q0, which counts as positive" in case
+    assert "joint 2 is at 0.0° in q0 (treated as positive)" in case
     case = check("scara_motion.1", _degrees_without_limits).case
     assert "which is right in degrees" in case and "5156" not in case
-    assert "the elbow has changed its side" in check("scara_motion.1", _nearest_row).case
+    assert "the elbow ends on the other side" in check("scara_motion.1", _nearest_row).case
 
 
 @pytest.mark.parametrize(
@@ -252,8 +252,11 @@ def test_message_about_a_case_states_degrees_and_the_side_of_the_elbow():
     [
         (_degrees_without_limits, "degrees for radians"),
         (_nearest_row, "the nearer posture, elbow changed"),
-        (_zero_is_negative, "joint 2 at 0 counts as negative"),
-        (_zero_is_negative_and_ik_as_it_is, "joint 2 at 0 counts as negative, and the row of ik"),
+        (_zero_is_negative, "joint 2 at 0 is treated as negative"),
+        (
+            _zero_is_negative_and_ik_as_it_is,
+            "joint 2 at 0 is treated as negative, and the row of ik",
+        ),
         (_stroke_in_both_angles, "joint 4 is added to both angles"),
         (_joint, "joint 3"),
         (_three_turns, "joint 3"),
@@ -421,9 +424,9 @@ def test_message_about_a_case_of_the_limit_test_states_the_excess():
     sheet = np.array([[-140, 140], [-150, 150], [-400, 400], [0, 180]]), np.arange(4) == 3
     q = np.tile([0.1, 0.5, 0.2, 0.1], (3, 1))
     for joint, value, told in (
-        (3, -2e-6, "joint 4 at −0.0000020 m, 0.002 mm below its limit of 0 mm"),
-        (2, LOW[2] - 2e-6, "joint 3 at −6.9813190 rad, 0.0001° below its limit of −400°"),
-        (0, HIGH[0] + 5 * deg, "joint 1 at 2.5307274 rad, 5.0° above its limit of 140°"),
+        (3, -2e-6, "joint 4 is at −0.0000020 m, 0.002 mm below its limit of 0 mm"),
+        (2, LOW[2] - 2e-6, "joint 3 is at −6.9813190 rad, 0.0001° below its limit of −400°"),
+        (0, HIGH[0] + 5 * deg, "joint 1 is at 2.5307274 rad, 5.0° above its limit of 140°"),
     ):
         bad = q.copy()
         bad[1, joint] = value
@@ -431,7 +434,7 @@ def test_message_about_a_case_of_the_limit_test_states_the_excess():
         assert law((bad, *sheet), False, False) is None
     bad[1, 0] = HIGH[0] - 1e-7
     told = law((bad, *sheet), False, True)
-    assert "joint 1 at 2.4434609 rad, its limit is 2.4434610 rad" in told
+    assert "joint 1 is at 2.4434609 rad, its limit is 2.4434610 rad" in told
 
 
 # --- Exercise 3: an individual blend --------------------------------------------------------------
@@ -497,7 +500,7 @@ def test_mistakes_in_the_design_are_named():
 
 def test_answers_to_predictions_agree_with_other_calculations():
     right = {name: filled(p)[1][filled(p)[2]].text for name, p in LAB.predictions.items()}
-    assert right["p1"] == "Joint 3 alone: the others only set the place."
+    assert right["p1"] == "Joint 3 alone: the others only set the position."
     assert right["p2"] == "Joint 4 alone: the tool rises or sinks evenly."
     assert right["p3"] == "x and y."
     assert right["p4"] == "In LIN alone: the line decides what the joints do."

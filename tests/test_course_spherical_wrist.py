@@ -275,7 +275,7 @@ def test_test_may_refuse_a_program_with_an_assertion():
 def test_missing_test_of_a_product_of_matrices_is_reported():
     verdict = check("spherical_wrist.2", _by_assertion(lambda h: (h,)))
     assert verdict.mistake == "accepts: a better root alone"
-    assert any("matrices of a chain" in line for line in verdict.says)
+    assert any("matrices from a chain" in line for line in verdict.says)
 
 
 # --- Exercise 3: an individual line ---------------------------------------------------------------
@@ -306,7 +306,7 @@ def test_every_line_is_feasible_but_only_with_a_tilted_tool(who):
     assert verdict.mistake == "deg twice" and "perpendicular to the line" in verdict.says[0]
     verdict = check("spherical_wrist.3", line | {"up": side, "side": up}, who=who)
     if passage(n, -side, -up)[0] >= n["least_distance"]:
-        assert "With up and side exchanged it would be right" in verdict.says[0]
+        assert "With up and side exchanged, it would also be right" in verdict.says[0]
     elif 50 > abs(n["slope"]) / deg > 40:  # up and side have nearly the same size
         assert verdict.holds or verdict.mistake in ("tilted to the wrong side", "too fast")
     elif not verdict.holds and verdict.mistake not in ("too fast", "too slow"):

@@ -57,7 +57,7 @@ def test_every_posture_that_solves_the_task_passes(answer):
         (np.array([40, -17, -10, 0, 30, 0]) * deg, "x and y differ"),
         (np.array([45, -20, -10, 0, 30, 0]) * deg, "too low"),
         (np.array([45, -10, -10, 0, 30, 0]) * deg, "too high"),
-        (np.array([-45, -17, -10, 0, 30, 0]) * deg, "right for left"),
+        (np.array([-45, -17, -10, 0, 30, 0]) * deg, "right instead of left"),
         (np.array([-135, -17, -10, 0, 30, 0]) * deg, "behind the arm"),
         (np.array([45, -17, -10, 0, 390, 0]) * deg, "past a limit"),
         (np.array(ANSWER[:5]) * deg, "another kind or shape"),

@@ -116,7 +116,7 @@ def added(K, alpha, lengths):
     [
         (
             of_the_lab,
-            "the formulas of equal levers, with OB, and clipped where there is no triangle",
+            "the formulas of equal levers, with OB, and clipped if there is no triangle",
         ),
         (first_of_the_lab, "L of the lab used as OB"),
         (whole_arm, "the reach of the whole arm"),

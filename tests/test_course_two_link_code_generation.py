@@ -47,32 +47,32 @@ SLIPS = {
     "a sum of squares in K": {"a": f"0.5 + {(L1**2 + L2**2) / 2} / d2"},
     "no squares in K": {"a": f"0.5 + {(L1 - L2) / 2} / d2"},
     "0.5 left out of a": {"a": f"{K} / d2"},
-    "1 for 0.5 in a": {"a": f"1 + {K} / d2"},
+    "1 instead of 0.5 in a": {"a": f"1 + {K} / d2"},
     "0.5 divided by d2, too": {"a": f"(0.5 + {K}) / d2"},
     "K not divided by d2": {"a": f"0.5 + {K}"},
     "K divided by d, not by d2": {"a": f"0.5 + {K} / sqrt(d2)"},
     "a not squared": {"h": f"sqrt({L} / d2 - a)"},
-    "2 a for a²": {"h": f"sqrt({L} / d2 - 2*a)"},
-    "plus for minus under the root": {"h": f"sqrt({L} / d2 + a*a)"},
+    "2 a instead of a²": {"h": f"sqrt({L} / d2 - 2*a)"},
+    "plus instead of minus under the root": {"h": f"sqrt({L} / d2 + a*a)"},
     "the root left out": {"h": f"{L} / d2 - a*a"},
     "l1² not divided by d2": {"h": f"sqrt({L} - a*a)"},
     "a² divided by d2, too": {"h": f"sqrt(({L} - a*a) / d2)"},
-    "l1 for l1²": {"h": f"sqrt({L1} / d2 - a*a)"},
-    "l2² for l1²": {"h": f"sqrt({L2**2} / d2 - a*a)"},
+    "l1 instead of l1²": {"h": f"sqrt({L1} / d2 - a*a)"},
+    "l2² instead of l1²": {"h": f"sqrt({L2**2} / d2 - a*a)"},
     "h in metres": {"h": f"sqrt({L} - a*a*d2)"},
-    "d for d2": {"d2": "sqrt(dx*dx + dy*dy)"},
-    "minus for plus in d2": {"d2": "dx*dx - dy*dy"},
-    "the square of the sum for d2": {"d2": "(dx + dy)**2"},
+    "d instead of d2": {"d2": "sqrt(dx*dx + dy*dy)"},
+    "minus instead of plus in d2": {"d2": "dx*dx - dy*dy"},
+    "the square of the sum instead of d2": {"d2": "(dx + dy)**2"},
     "dx twice in d2": {"d2": "dx*dx + dx*dx"},
-    "the way from the tip to the base": {"dx": f"{BX} - x3", "dy": f"{BY} - y3"},
+    "the direction from tip to base": {"dx": f"{BX} - x3", "dy": f"{BY} - y3"},
     "the base added to the tip": {"dx": f"x3 + {BX}", "dy": f"y3 + {BY}"},
     "the base left out of dx and dy": {"dx": "x3", "dy": "y3"},
-    "base_x and base_y exchanged": {"dx": f"x3 - {BY}", "dy": f"y3 - {BX}"},
-    "1/2 for a in the foot": {"px": f"{BX} + 0.5*dx", "py": f"{BY} + 0.5*dy"},
+    "base_x and base_y swapped": {"dx": f"x3 - {BY}", "dy": f"y3 - {BX}"},
+    "1/2 instead of a in the foot": {"px": f"{BX} + 0.5*dx", "py": f"{BY} + 0.5*dy"},
     "no a in the foot": {"px": f"{BX} + dx", "py": f"{BY} + dy"},
-    "the foot counted from the tip": {"px": "x3 + a*dx", "py": "y3 + a*dy"},
-    "aside along the way": {"u": "h*dx", "v": "h*dy"},
-    "both signs alike": {"yr": "py + v", "yl": "py - v"},
+    "the foot measured from the tip": {"px": "x3 + a*dx", "py": "y3 + a*dy"},
+    "along instead of across": {"u": "h*dx", "v": "h*dy"},
+    "a sign of the direction across": {"yr": "py + v", "yl": "py - v"},
     "the sign in xl": {"xl": "px + u"},
     "the sign in yl": {"yl": "py - v"},
 }
@@ -91,12 +91,12 @@ def test_slips_in_a_short_program_are_named():
 def test_known_mistakes_and_nearly_correct_programs_are_named():
     assert judged().holds
     assert judged(xr="px - u", yr="py + v", xl="px + u", yl="py - v").mistake == (
-        "the sides exchanged"
+        "the sides swapped"
     )
     assert judged(px="a*dx", py="a*dy").mistake == "the base not added at the end"
     near = judged(a=f"0.5 + {K + 1e-4} / d2")
     assert near.mistake == "nearly right" and "the task asks for a micrometre" in near.says[0]
-    at = r"elbow is at \((.*?)\); your program says \((.*?)\)"
+    at = r"elbow is at \((.*?)\); your program returns \((.*?)\)"
     right, yours = re.search(at, near.says[0]).groups()
     assert right != yours
     assert judged(a=f"5 + {K} / d2").mistake == "NaN"

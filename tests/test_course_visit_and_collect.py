@@ -185,10 +185,10 @@ def filled_backward(q, speeds):
     [
         (filled_backward, "turned on the way to the axis"),
         (nothing, "NaN costs nothing, both ways"),
-        (lambda q, speeds: nothing(np.nan_to_num(q), speeds), "NaN taken for 0"),
+        (lambda q, speeds: nothing(np.nan_to_num(q), speeds), "0 instead of NaN"),
         (
             lambda q, speeds: np.diff(nothing(np.nan_to_num(q), speeds), prepend=0),
-            "NaN taken for 0, and times of the moves, not added up",
+            "0 instead of NaN, and times of the moves, not added up",
         ),
         (forward_only, "a start on the axis left out"),
         (
@@ -265,12 +265,12 @@ OPENING = [[4 * np.cos(a), 4 * np.sin(a), 2] for a in (1.0, -1.1, -1.2, -1.3)]  
         ("visit", [[4, 1, 1]] * 4, "too near to each other"),
         ("visit", [[-4, 0, 1], [-4, 1, 1], [-4, 2, 1], [-4, 3, 1]], "nothing in time"),
         ("visit", [[4000, 1000, 1000]] * 4, "another kind or shape"),
-        ("visit", "no trap", "given up, where there is a trap"),
+        ("visit", "no trap", "given up, although there is a trap"),
         ("visit", OPENING, "the lab's own points"),
         ("visit", mirrored(OPENING[::-1]), "the lab's own points"),
-        ("collect", [[3, 3, 3], [4, 0, 2], [1, 5, 1], [-3, 2, 2]], "a trap against a proof"),
-        ("collect", [[9, 9, 9]] * 4, "a trap against a proof"),
-        ("worth", "no trap", "given up, where there is a trap"),
+        ("collect", [[3, 3, 3], [4, 0, 2], [1, 5, 1], [-3, 2, 2]], "a trap that cannot exist"),
+        ("collect", [[9, 9, 9]] * 4, "a trap that cannot exist"),
+        ("worth", "no trap", "given up, although there is a trap"),
         ("worth", [[3.9, -0.8, 1], [4, 0, 1.2], [4, -2.5, 1], [3.5, 0.9, 1.4]], "all in time"),
         ("worth", "perhaps", "another kind or shape"),
     ],
@@ -285,7 +285,7 @@ def test_loss_of_less_than_half_of_the_value_is_reported():
     numbers = variant("visit_and_collect", "your name") | {"worth": [3, 2, 3, 4]}
     points = np.array(turned(numbers, [0.5, -1.35, -1.5, -1.2]))
     name, says = TRAPS["trap_fault"]("worth", points, numbers)
-    assert name == "less than half is lost" and "worth 3; the best choice [3], worth 4" in says
+    assert name == "less than half is lost" and "worth 3; the best choice is [3], worth 4" in says
     name, _ = TRAPS["trap_fault"]("worth", points, numbers | {"worth": [9, 1, 1, 1]})
     assert name == "the rule is not beaten"
 

@@ -47,6 +47,7 @@ LAYERS = {
     "robokin.arms": BASE,
     # uses any object with a `lerp` method, but no arms
     "robokin.motion": ("robokin._arrays", "robokin._validate", "robokin.units"),
+    "robokin.motion.duration": (*BASE, "robokin.arms", "robokin.motion.laws"),
     "robokin.motion.recording": (*BASE, "robokin.arms", "robokin.motion.derivatives"),
     "robokin.jobs": KINEMATICS,
     "robokin.show": KINEMATICS,
@@ -216,14 +217,6 @@ def test_package_itself_needs_only_numpy():
     reports = {"ipykernel", "jupyter-client", "nbclient"}
     labs = {"robokin", "jupyterlab", "ipywidgets", "scipy", "sympy"}
     assert extras["labs"] == labs | exports | reports
-
-
-def test_show_without_matplotlib_says_what_to_install():
-    code = "import sys; sys.modules['matplotlib'] = None; import robokin, robokin.show"
-    run = subprocess.run([sys.executable, "-c", code], text=True, capture_output=True)
-    assert re.search(
-        r"ImportError: .*matplotlib.*'\.\[show\]' at the top of a clone", run.stderr
-    ), run.stderr
 
 
 def test_eight_lines_of_the_readme_save_a_page(tmp_path):

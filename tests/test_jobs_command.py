@@ -17,6 +17,8 @@ import numpy as np
 import pytest
 from conftest import PATIENCE
 
+from robokin.jobs.visit_collect import read_task
+
 DATA = Path(__file__).parent / "data"
 TASKS = Path(__file__).parents[1] / "notebooks" / "tasks"
 CASES = json.loads((DATA / "spbu3_tasks.json").read_text())["cases"]
@@ -73,14 +75,52 @@ def test_example_files_give_the_documented_reports(tmp_path):
         line for line in log.splitlines() if not line.startswith("DEBUG: ")
     ] == REPORTS.splitlines()
     debug = [line for line in log.splitlines() if line.startswith("DEBUG: Task example_3.json: ")]
-    assert len(debug) == 3
+    assert len(debug) == 4
     assert "T = 10.0, q' = [0.2, 0.2, 0.2], p0 = [1.0, 1.0, 1.0], pi = [[2.0, 3.0, 2.0]" in debug[0]
     numbers = [[float(x) for x in re.findall(r"\d+\.\d+", line.split("=", 1)[1])] for line in debug]
     assert numbers[1][:3] == pytest.approx(
         (0.785398163397448, 0.149913117550067, 1.253235897503375), abs=1e-14
     )
+    assert "t1, t2, t3 from p0 to pi[0, 1] = [[" in debug[2]
+    assert "t1, t2, t3 from pi[0] to pi[1] = [[" in debug[3]
     assert max(numbers[2][:3]) == pytest.approx(3.048673943550, abs=1e-12)
-    assert max(numbers[2][3:]) == pytest.approx(1.331260245755, abs=1e-12)
+    assert max(numbers[3]) == pytest.approx(1.331260245755, abs=1e-12)
+
+
+def printed_times(task):
+    """t1, t2, t3 in the order in which the document's program logs them (appendix 1), with a break
+    where no point fits (errata S0-f).
+    """
+    q, T = task.q.tolist(), task.T
+    here, done, total = q[0], set(), 0.0
+    while len(done) < len(q) - 1:
+        best = None
+        for i, there in enumerate(q[1:]):
+            if i not in done:
+                times = [abs(a - b) / v for a, b, v in zip(there, here, task.speeds, strict=True)]
+                yield times
+                if best is None or max(times) < best[0]:
+                    best = max(times), i
+        if task.kind == "collect" or total + best[0] > T:
+            return
+        total += best[0]
+        done.add(best[1])
+        here = q[1 + best[1]]
+
+
+@pytest.mark.parametrize("kind", ["visit", "collect"])
+@pytest.mark.parametrize("T", [0.0, 9.0, 1e3])
+def test_log_has_the_times_of_all_candidates_as_the_documents_program(tmp_path, kind, T):
+    tries = np.random.default_rng(5).uniform([1, 1, 1], [4, 4, 4], (9, 3))
+    data = example(3, pi=tries.tolist(), task=kind, T=T)
+    run = command("tasks", cwd=write(tmp_path / "tasks", a=data).parent)
+    assert run.returncode == 0, run.out
+    log = (tmp_path / "output.log").read_text(encoding="utf-8").splitlines()
+    lines = [line.split(" = ")[1] for line in log if "t1, t2, t3 from" in line]
+    found = [times for line in lines for times in json.loads(line)]
+    wanted = list(printed_times(read_task(tmp_path / "tasks" / "a.json")))
+    np.testing.assert_allclose(found, wanted, rtol=1e-12)
+    assert len(found) == (45 if (kind, T) == ("visit", 1e3) else 9) or (kind, T) == ("visit", 9.0)
 
 
 def test_success_returns_0_and_replaces_the_log(tmp_path):

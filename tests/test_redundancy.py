@@ -124,6 +124,33 @@ def test_random_choice_is_uniform():
 
 
 @arms
+def test_random_choice_avoids_the_obstacle_on_the_way(arm):
+    """Distances are those of complex numbers from line segments, at 300 samples of each motion."""
+    K, before = tasks(arm, 60)
+    near = arm.lever / 7
+
+    def nearest(a, b):
+        q = a + (b - a) * np.linspace(0, 1, 300)[:, None]
+        gamma, beta, alpha = np.moveaxis(q, -1, 0)
+        turns = np.stack([np.exp(1j * gamma), -np.exp(1j * beta), -np.exp(1j * alpha)])
+        levers = np.asarray(arm.levers)[:, None] * np.cumprod(turns, axis=0)
+        to_H = complex(*H) - (np.cumsum(levers, axis=0) - levers)
+        share = np.clip((to_H * levers.conj()).real / abs(levers) ** 2, 0, 1)
+        return abs(to_H - share * levers).min()
+
+    q = random_choice(5, H)(arm, K, before)
+    failed = np.isnan(q).any(axis=-1)
+    assert 5 < failed.sum() < 40
+    reached = [nearest(a, b) for a, b in zip(before[~failed], q[~failed], strict=True)]
+    assert min(reached) >= near
+    plain = random_choice(5)(arm, K, before)
+    assert min(nearest(a, b) for a, b in zip(before[~failed], plain[~failed], strict=True)) < near
+    for place, a in zip(K[failed], before[failed], strict=True):  # few postures, if any, are safe
+        rows = arm.family(place, np.linspace(*arm.alpha_range(place), 100))
+        assert sum(nearest(a, b) > near for b in rows) < 10
+
+
+@arms
 def test_the_distance_rule_stops_the_nearest_approaching_lever(arm):
     K, before = tasks(arm, 200)
     np.testing.assert_array_equal(

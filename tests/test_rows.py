@@ -140,3 +140,14 @@ def test_every_box_of_the_flow_charts_leads_to_the_source_of_its_function():
             assert value is not None, name
             assert (path.parent / target).resolve().samefile(inspect.getsourcefile(value)), name
     assert sorted(set(figures)) == ["29", "30", "31", "32", "33"]
+
+
+def test_companion_003_explains_every_term_of_the_documents_own_list():
+    """The list is "Santrumpų ir terminų žodynėlis" and has 20 entries."""
+    text = prose(COMPANIONS["003"]).split("\n## Its terms\n")[1].split("\n## ")[0]
+    named = [line.split("|")[1].lower() for line in text.splitlines() if line.startswith("| ")]
+    terms = """ai, atvirkštinė kinematika, autonominis, c++, db, dof, is, if/then, išmanioji
+        sistema, jutiklis, manipuliatorius, matlab, operatorius, plv, pagalbinė sistema,
+        realaus laiko sistema, tiesioginė kinematika, tis, valdiklis, žingsninis variklis"""
+    for term in map(str.strip, re.sub(r"\s+", " ", terms).split(",")):
+        assert any(re.search(rf"(?<!\w){re.escape(term)}(?!\w)", name) for name in named), term

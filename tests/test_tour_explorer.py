@@ -99,7 +99,7 @@ def test_best_order_of_many_points_is_computed_only_after_release():
 def test_loss_of_the_greedy_tour_is_reported():
     # errata S0-q: going to the nearest point first costs two points
     said = answered(asked(), SPEEDS)["says"]
-    assert said == "Greed loses 2 points: nearest first visits 1 of 4, the best order 3."
+    assert said == "Greed loses 2 points: nearest first visits 1 of 4, and the best order 3."
     assert "loses nothing" in answered(asked(T=20), SPEEDS)["says"]
     assert "loses no point, but 9.50 s" in answered(asked(T=16.2), SPEEDS)["says"]
     away = asked(points=[*FOUR[1:].tolist(), [0, 0, 12]])
@@ -341,7 +341,7 @@ def test_taps_build_the_readers_order(browser, tmp_path):
     handle(page, "0").click()  # now the order contains all points
     page.evaluate(FRAMES)
     assert cells(page)[1] == told(CIRCLE, best_visit)[0]
-    assert page.locator(".rk-says").inner_text().endswith("visits 1 of 4, the best order 3.")
+    assert page.locator(".rk-says").inner_text().endswith("visits 1 of 4, and the best order 3.")
     page.get_by_role("button", name="Clear order").click()
     page.evaluate(FRAMES)
     assert cells(page)[2] == ["–"] * 3 and cells(page)[1] == told(CIRCLE, best_visit)[0]

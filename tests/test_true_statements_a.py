@@ -89,7 +89,7 @@ def options(name):
 def test_transposing_inverts_only_the_rotation():
     wrong = find("frames_and_quaternions.1", "exercises").text.wrong()
     (mistake,) = [each for each in wrong if each.name == "transposed instead of inverted"]
-    assert "Transposing inverts the rotation R alone." in mistake.says
+    assert "Transposing inverts only the rotation R." in mistake.says
     pose = Transform(
         Quaternion.from_angle_axis(0.7, (1 / 3, 2 / 3, 2 / 3)), (0.1, 0.2, 0.3)
     ).as_matrix()
@@ -142,7 +142,7 @@ def test_check_accepts_what_hint_2_approves_and_reports_jumps():
     assert approved and refused
     for says in refused:
         if "is past its limit" in says:
-            assert "Each sample alone has a value inside" in says and "At both ends" not in says
+            assert "Each single sample has a value inside" in says and "At both ends" not in says
 
 
 def test_wrapped_angle_spoils_two_central_differences_and_one_forward_difference():
@@ -485,7 +485,10 @@ def test_elbow_plus_one_bends_to_the_left_in_both_labs():
     first, second = (np.array([np.cos(x), np.sin(x)]) for x in (q1, q1 + q2))
     # seen along the first lever, the second one points to the left
     assert first[0] * second[1] - first[1] * second[0] > 0 and q2 > 0
-    assert "+1 bends to the left, −1 to the right" in sources("04")["triangle-formula"]
+    assert (
+        "with +1, the arm bends to the left, with −1 to the right"
+        in sources("04")["triangle-formula"]
+    )
     assert "the elbow that bends to the left: joint 2 positive" in sources("05")["half-code"]
     for text in (*sources("04").values(), *sources("05").values()):
         assert not re.search(r"elbow to the (right|left)", text)
@@ -661,7 +664,10 @@ def test_stated_minimum_ratio_of_tool_speed_to_joint_speed_holds():
     the cell.
     """
     g, said = run("06", "near-code")
-    assert "a joint at 1°/s means a tool speed of at least" in sources("06")["near"]
+    moves = (
+        r"if a joint moves at 1°/s, the tool moves at $\sigma L \cdot 1°/\mathrm{s}$ (in mm/s) or"
+    )
+    assert f"{moves} faster" in sources("06")["near"]
     told = {int(m): float(x) for m, x in re.findall(r"(\d+) mm: .* (\S+) mm/s per °/s", said)}
     assert set(told) == {1, 2, 5, 10, 20, 50}
     ways = np.random.default_rng(7).normal(size=(20_000, 3))
@@ -687,7 +693,7 @@ def test_stated_minimum_ratio_of_tool_speed_to_joint_speed_holds():
 
 def test_each_of_two_joints_can_reduce_the_distance_from_a_singularity_to_0():
     answer = " ".join(sources("06")["near"].split())
-    assert "Bring q5 to 0° (wrist singularity), or q3 to 0°, which stretches the arm" in answer
+    assert "Bring q5 to 0° (wrist singularity), or q3 to 0°, which straightens the arm" in answer
     start = np.array(explorers.joint_explorer(ITMO6R, singular=True).data["q"])
     assert distance_from_singularity(ITMO6R, start) > 0.05
     for joint in (4, 2):

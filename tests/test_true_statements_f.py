@@ -48,8 +48,10 @@ def about(axis, angle):
 
 def test_lerp_between_rotations_is_not_a_rotation():
     words = flat("01", "short")
-    assert "Between two different rotations, lerp does not return a rotation." in words
-    assert "Divided by its length (nlerp), the result is one, but it does not rotate at" in words
+    assert "Between two different rotations, the result of lerp is not a rotation." in words
+    assert (
+        "If you divide it by its length (nlerp), it is one, but the speed is not constant." in words
+    )
     third = np.array([np.cos(120 * deg), np.sin(120 * deg), 0, 0])
     # this sum of two unit quaternions has length 1, so it is a rotation
     assert np.linalg.norm([1, 0, 0, 0] + third) == pytest.approx(1)
@@ -73,7 +75,7 @@ def test_lerp_between_rotations_is_not_a_rotation():
 def test_test_in_the_last_hint_for_slerp_detects_every_mistake():
     exercise = book.find("frames_and_quaternions.3", "exercises")
     hint = one_line(exercise.hints[2])
-    more = "and pairs that are 30° and 175° apart, as in hint 2, and also (a, a) and (a, -a)"
+    more = "pairs that are 30° and 175° apart, and also (a, a) and (a, -a)"
     assert more in hint
     shares = [float(each) for each in re.search(r"[Ff]or s in \((.*?)\)", hint)[1].split(",")]
     rights = [exercise.program(text) for _, text in exercise.rights]
@@ -117,7 +119,10 @@ def test_test_in_the_last_hint_for_slerp_detects_every_mistake():
 
 def test_skew_axes_with_known_directions_determine_the_dh_parameters():
     reason = one_line(option("frames_and_quaternions.p4", "none").reason)
-    assert "one common perpendicular, once you have said which way it and the axes point." in reason
+    assert (
+        "one common perpendicular, once you have chosen its direction and those of the axes."
+        in reason
+    )
     assert "it is 0°, or 180° if they point in opposite directions" in one_line(
         option("frames_and_quaternions.p4", "alpha").reason
     )
@@ -177,7 +182,7 @@ def test_line_at_variable_speed_saves_most_of_the_lost_time_but_never_beats_ptp(
 
 def test_trapezoidal_law_brakes_at_full_strength_until_the_end():
     reason = one_line(option("irb140_motion.p4", "trapezoidal").reason)
-    assert "brakes at full strength to the very end. The quintic law brakes ever more" in reason
+    assert "brakes equally hard to the very end. The quintic law brakes more and more" in reason
     bell = one_line(option("irb140_motion.p4", "triangle").second)
     assert bell.endswith("the bell-shaped curve of the quintic law is lower.")
     law = np.polynomial.Polynomial([0, 0, 0, 10, -15, 6])
@@ -228,10 +233,10 @@ def test_quintic_corner_raises_the_tools_peak_acceleration_by_the_stated_factor(
 
 
 def test_joint_4_can_have_two_values_inside_its_limits():
-    others = "The value given for any other joint may be whole turns away from the values inside"
+    others = "The given value of any other joint may also be whole turns outside its limits"
     one, two = says("irb140_motion", "only joint 6"), says("irb140_motion", "only joints 4 and 6")
-    assert f"{others} its limits, too, and joint 4 may have two values inside." in one
-    assert f"{others} its limits, too." in two
+    assert f"{others}, and joint 4 may have two values inside its limits." in one
+    assert f"{others}." in two
     given = np.arange(-180, 180, 0.5)[:, None] + 360 * np.arange(-4, 5)
     most = []
     for low, high in IRB140.limits / deg:
@@ -284,7 +289,7 @@ def zone_area(a, m, l1=0.2, l2=0.25):
 )
 def test_area_formula_holds_or_the_cell_says_that_it_does_not(stops, stop):
     words = flat("04", "deeper-area")
-    assert r"let the second lever come as far as its mirror image: $\gamma \le m$" in words
+    assert r"let the second lever turn as far as its mirror image: $\gamma \le m$" in words
     assert "at $q_2 = m$ is at most $a$. Then, for $a \\le 180°$:" in words
     told = io.StringIO()
     changed = [("stops = [140, 150]", f"stops = {list(stops)}"), ("fine = 2.0", "fine = 4.0")]
@@ -307,7 +312,7 @@ def test_area_formula_holds_or_the_cell_says_that_it_does_not(stops, stop):
         assert made["pieces"] is not None
     else:
         assert wrong > 5e-4 and made["pieces"] is None
-        stopped = f"The formula does not hold here: joint {stop} stops at {stops[stop - 1]}°"
+        stopped = f"The formula is not valid here: joint {stop} stops at {stops[stop - 1]}°"
         assert last.startswith(stopped)
 
 
@@ -318,7 +323,7 @@ def test_only_a_rotation_about_the_tools_axis_leaves_the_wrist_centre_in_place()
     found = option("scara_motion.p1", "q1+q2+q3+q4")
     assert "a tilt moves the wrist centre, which joints 1 to 3 carry." in one_line(found.reason)
     assert (
-        "too, joint 6 alone can turn the tool about the tool's own axis; any other rotation of"
+        "too, joint 6 alone can turn the tool about the tool's own axis. Any other rotation about"
         in (one_line(found.second))
     )
     rng = np.random.default_rng(5)
@@ -402,9 +407,14 @@ def test_hint_and_solution_reject_a_program_that_only_improves_the_root():
             assert off(better, chain).max() > least and off(right, chain).max() < 1e-14
         assert off(better, exact).max() < 1e-14  # matrices made by zyz do not show the error
     one, _, three = (one_line(hint) for hint in WRIST.hints)
-    assert "make some matrices as my_chain makes them: `wrists(theta)` of section 5." in one
-    told = "In a matrix from zyz, small entries have all their digits; in a matrix from a chain"
-    assert f"{told} they do not." in one
+    assert (
+        "try matrices that come from my_chain, such as those of `wrists(theta)` in section 5."
+        in one
+    )
+    told = (
+        "In a matrix from zyz, small entries are accurate to all digits; in a matrix from a chain,"
+    )
+    assert f"{told} they are not." in one
     assert "a random rotation B for each pair. The product B.T @ (B @ h) is h with" in three
     lines = [line for line in WRIST.hints[2].split("\n") if line[:4] == "    "]
     body = "\n".join("        " + line[4:] for line in lines)
@@ -421,8 +431,10 @@ def test_hint_and_solution_reject_a_program_that_only_improves_the_root():
         assert check("spherical_wrist.2", test).holds
     assert "a better root alone" in {name for name, _, _ in WRIST.wrongs}
     told = says("spherical_wrist", "a better root alone")
-    assert "In a matrix of a chain these have rounding errors of 1e-16 and lose digits" in told
-    assert "in a matrix of zyz they do not" in told
+    assert (
+        "In a matrix from a chain, these have rounding errors of 1e-16 and are inaccurate" in told
+    )
+    assert "in a matrix from zyz, they are not" in told
 
 
 def test_a_hundred_matrices_are_enough_to_test_wrist_programs():
@@ -454,10 +466,10 @@ def test_regular_formulas_lose_digits_at_the_stated_angle():
         says("spherical_wrist", f"the regular formulas at theta = {place}")
         for place in ("0", "180 degrees")
     )
-    told = "its angles lose digits: try 1e-8 rad"
-    assert low == f"Near theta = 0 {told}, and angles equally near to 180 degrees."
-    high_told = f"{told} less than that, and angles equally near to 0."
-    assert high == f"Near theta = 180 degrees {high_told}"
+    told = "its angles are inaccurate: try"
+    assert low == f"Near theta = 0, {told} 1e-8 rad, and angles equally close to 180 degrees."
+    high_told = f"{told} 180 degrees minus 1e-8 rad, and angles equally close to 0."
+    assert high == f"Near theta = 180 degrees, {high_told}"
     made = lab_06()
     book_way = made["textbook_wrist"]
     for theta in (1e-8, np.pi - 1e-8):
@@ -479,11 +491,11 @@ def test_the_sampled_lines_do_not_show_which_rule_is_better():
     question, options, right = asked("puma560_branches.p7")
     reason = one_line(options[right].reason)
     (said,) = numbers(r"^About (\d+) %\.$", options[right].text)
-    (lines,) = numbers(r"^Take (\d+) random straight lines, on which all eight rows", question)
+    (lines,) = numbers(r"^Take (\d+) random straight lines on which all eight rows", question)
     one, other = numbers(r"fail on (\d+) and (\d+) % of them\.", reason)[:1] + numbers(
         r"^It cannot finish (\d+) % of these", reason
     )
-    (scatter,) = numbers(r"such a fraction scatters by (\d+) points \(standard deviation\)", reason)
+    (scatter,) = numbers(r"slightly different \(standard deviation: (\d+) %\)", reason)
     assert scatter == round(100 * np.sqrt(0.42 * 0.58 / lines))
     assert "these lines do not tell you which of the first two rules is better." in reason
     assert "the orientation over all rotations" in view("puma560_branches.p7")
@@ -569,7 +581,7 @@ def test_player_shows_the_greatest_joint_speed_on_the_line():
 
 def test_flange_moves_nearly_in_the_arms_plane_at_the_nearest_point():
     reason = one_line(option("puma560_branches.p6", "as towards the axis").reason)
-    told = r"it moves on the tangent nearly in the arm's own plane: (\S+)° away from it"
+    told = r"the tangent lies nearly in the arm's own plane, at (\S+)° to it"
     (said,) = numbers(told, reason)
     pose = Transform(translation=np.array([151.05, 0, 1200]) * mm)
     q = PUMA560.ik(pose)[2]

@@ -189,7 +189,7 @@ def test_point_3_comes_first_once_it_is_nearer_than_point_0():
 
 
 def test_path_over_the_axis_costs_the_whole_move_to_it():
-    assert "It costs the whole move from point 0 to the axis" in flat("08", "time-axis-cost")
+    assert "The stop adds the whole move from point 0 to the axis" in flat("08", "time-axis-cost")
     places = [[-2, 0.01, 4], [-2, 0.5, 4], [0, 0, 6.5], [2, -0.01, 4]]
     assert f"over = {places[1:]}  # m" in cells("08")["time-axis-explorer"]
     assert f"p0={places[0]}" in cells("08")["time-axis-explorer"]
@@ -205,8 +205,8 @@ def test_path_over_the_axis_costs_the_whole_move_to_it():
 
 def test_another_factor_makes_another_point_the_nearest():
     words = flat("08", "visit-other-look")
-    assert "At factors of 1 and 1.5 it is point 0, a lure." in words
-    assert "At 2 it is point 1, and nearest first" in words
+    assert "With factors of 1 and 1.5, it is point 0, a lure." in words
+    assert "With a factor of 2, it is point 1, and nearest first" in words
     assert "nearest first does as well as the best order." in words
     for factor, first, equal in ((1, 1, False), (1.5, 1, False), (2, 2, True)):
         changed = [("uphill = 1.5", f"uphill = {factor}")]
@@ -281,7 +281,9 @@ def test_second_postures_gain_points_in_as_many_random_tasks_as_stated():
 def test_another_round_trip_beats_nearest_first_as_stated():
     reason = one_line(option("visit_and_collect.p5", "emptied at the end").reason)
     assert "this is visiting, with a return at the end. Within" in reason
-    told = r"Within (\d+) s nearest first brings (\d) of the opening's points, and another order"
+    told = (
+        r"Within (\d+) s, nearest first brings (\d) of the points in the opening, and another order"
+    )
     T, few, many = numbers(rf"{told} brings (\d)\.", reason)
     legs = table(opening())
     rules = (
@@ -417,7 +419,7 @@ def arms_needed(v, spread, seed):
 
 def test_belt_table_shows_one_stream_and_other_streams_need_one_more_arm():
     words = flat("14", "belt-look")
-    assert "at all six speeds. At spread 0.5 it is one arm too few at three of them, at" in words
+    assert "at all six speeds. At spread 0.5, it is one arm too few at three of them, and" in words
     assert "at spread 1 at five. All this is for one order of the gaps, `seed=8`." in words
     assert (
         "With each of the next four orders, 9 to 12, spread 1 needs a fourth arm at 200 mm/s and "
@@ -461,7 +463,7 @@ def test_belt_player_shows_the_streams_of_the_table(monkeypatch):
 
 
 def test_fourth_arm_has_work_only_when_the_objects_lie_unevenly(monkeypatch):
-    assert "**watch** arm 4: at 0 it stands still, at 0.5 and 1 it has work" in flat(
+    assert "**watch** arm 4: at 0 it does not move, at 0.5 and 1 it does" in flat(
         "14", "belt-uneven"
     )
     cell = cells("14")["belt-player"]
@@ -603,7 +605,9 @@ def test_width_of_the_narrower_range_follows_from_inverse_proportion():
         found.reason
     )
     second = one_line(found.second)
-    (far,) = numbers(r"In inverse proportion the arm could still choose at (\S+) m, where", second)
+    (far,) = numbers(
+        r"In inverse proportion, the arm would still have a choice at (\S+) m, which", second
+    )
     assert width(1.5) * 1.5 / far > 1 and far > 3
     falls = [(width(a) - width(b)) / (b - a) for a, b in pairwise([2.0, 2.5, 2.9, 2.99, 3.0])]
     # the fall becomes steeper and steeper
@@ -613,8 +617,9 @@ def test_width_of_the_narrower_range_follows_from_inverse_proportion():
 def test_recipe_for_the_other_bend_reaches_targets_behind_the_base():
     words = flat("09", "deeper-more")
     assert (
-        "Mirror K in the x axis, solve with `posture` of section 2, mirror back, and check the "
-        r"limit of $\gamma$ only then. Which targets behind the base does this arm reach?" in words
+        "Mirror K in the x axis, solve with `posture` of section 2, and mirror the result back. "
+        r"Check the limit of $\gamma$ only then. Which targets behind the base does this arm reach?"
+        in words
     )
     assert "in every direction behind the base: at 1.2, 2.0 and 2.8 m we find postures" in words
     made = quietly("09", "chain-explorer", "chain-code", "angles-code")
@@ -653,11 +658,8 @@ def test_arctan2_works_at_x_equal_to_0():
 
 
 def test_clipped_arm_stretches_or_folds_and_does_not_reach_k():
-    words = says("three_levers", "clipped where there is no triangle")
-    assert words.endswith(
-        "With clipped cosines the arm stretches or folds and does not reach K, and your program "
-        "does not say so."
-    )
+    words = says("three_levers", "clipped if there is no triangle")
+    assert words.endswith("it returns a stretched or folded arm that does not reach K.")
     condition, space = "abs(a - KB) <= KO <= a + KB", {}
     assert LEVERS.solution.count(condition) == 1
     exec(LEVERS.solution.replace(condition, "True"), space)
@@ -685,7 +687,9 @@ def test_clipped_arm_stretches_or_folds_and_does_not_reach_k():
 
 
 def test_plans_for_80_mm_wide_levers_exist_but_one_needs_a_larger_circle():
-    claim = "wherever thin levers (width 0) have one, but past (1.6, 1.3) m they need a larger"
+    claim = (
+        "wherever there is one for thin levers (width 0), but past (1.6, 1.3) m they need a larger"
+    )
     assert any(claim in text for text in cells("10").values())
     answers = []
     for width in (0, 0.08):

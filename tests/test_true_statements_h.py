@@ -208,8 +208,8 @@ def test_least_blend_is_the_fraction_of_the_time_below_the_lowest_height():
 
 def test_lin_exceeds_joint_limits_for_the_stated_goals_and_ptp_does_not():
     text, made = flat("05", "ends-look"), run_cells("05", "ends-player")
-    assert "LIN leaves the limits at x = 0 and below" in text
-    assert "(At x = −150 the line passes so close" in text and "there is no solution.)" in text
+    assert "With LIN, the arm leaves the limits if x is 0 or less" in text
+    assert "(At x = −150, part of the line is too close to the column to have a solution.)" in text
     s = np.linspace(0, 1, 2001)
     for x in (-150, *made["race_x"]):
         with np.errstate(invalid="ignore"):

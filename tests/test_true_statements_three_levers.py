@@ -35,7 +35,7 @@ def test_only_ring_1_keeps_the_distance_of_the_gripper_from_the_base():
 
 def test_two_levers_are_in_line_at_both_ends_of_the_range():
     words = flat("09", "range-formula")
-    assert "BA and AK at $\\alpha = 180°$; OB and BA at the lowest $\\alpha$, where" in words
+    assert "BA and AK at $\\alpha = 180°$, and OB and BA at the lowest $\\alpha$, where" in words
     K = complex(0.55, 0.35) * 3  # where the view opens
     low, high = ends(K)
     assert high == math.pi and family(K, low)[1] == pytest.approx(math.pi, abs=1e-6)
@@ -152,8 +152,8 @@ def test_weights_reduce_the_change_of_gamma_by_the_stated_amount():
 
 def test_rounds_repeat_or_drift_as_stated():
     words = flat("09", "deeper-more")
-    assert "On 19 of them the postures repeated from the seventh round on, or earlier. On" in words
-    assert "one they were still drifting after fourteen rounds." in words
+    assert "On 19 of them, the postures repeated from the seventh round on, or earlier. On" in words
+    assert "one list, they were still changing after fourteen rounds." in words
     rng, settled = np.random.default_rng(0), []
     while len(settled) < 20:
         r, phi = rng.uniform(1.2, 2.8, 5), rng.uniform(0, 120, 5) * deg

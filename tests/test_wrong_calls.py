@@ -296,6 +296,11 @@ CALLS = {
         "high",
         "decimals",
     ),
+    "shortest_duration": (
+        motion.shortest_duration,
+        dict(arm=IRB140, path=lambda s: ptp(SIX, SIX + 0.1, s), law=quintic),
+        "arm",
+    ),
     "Maximum": (motion.Maximum, dict(value=1.0, at=0.0)),
     "record": (motion.record, dict(arm=IRB140, t=TIMES, q=MOTION)),
     "Recording": (motion.Recording, _fields(RECORDING)),
@@ -573,7 +578,7 @@ CALLS = {
     "redundancy.pseudo_inverse": (redundancy.pseudo_inverse, TASK_OF_LEVERS),
     "redundancy.gradient_projection": (redundancy.gradient_projection, TASK_OF_LEVERS),
     "redundancy.equal_angles": (redundancy.equal_angles, TASK_OF_LEVERS),
-    "redundancy.random_choice": (redundancy.random_choice, dict(seed=1)),
+    "redundancy.random_choice": (redundancy.random_choice, dict(seed=1, obstacle=OBSTACLE)),
     "redundancy.distance_rule": (redundancy.distance_rule, dict(obstacle=OBSTACLE)),
     "redundancy.RaceResult": (
         redundancy.RaceResult,

@@ -129,13 +129,13 @@ def _call(answer: Callable[..., Any], case: tuple[Any, ...]) -> Outcome:
             name="raises an error", says=f"It raises {_told(error)}{_where(answer, error)}."
         )
     if not all(map(equal, inputs, case)):
-        return Outcome(name="changes its input", says="It changes what it is given. Copy it first.")
+        return Outcome(name="changes its input", says="It changes its input. Make a copy first.")
     if result is None:
         text = " ".join(printed.getvalue().split())
         if text:
             says = f'It prints ("{text[:60]}") and returns nothing. Use return.'
             return Outcome(name="prints instead of returning", says=says)
-        return Outcome(name="returns None", says="It returns None: is there a return missing?")
+        return Outcome(name="returns None", says="It returns None: is a return missing?")
     return Outcome(result)
 
 

@@ -112,7 +112,7 @@ class Catch(Exercise):
         )
         says = [self.promise, count] if refused else [slipped[0][1], count]
         if not any(right) and sum(wrong) >= len(wrong) - 1:
-            named = "True and False exchanged"
+            named = "True and False swapped"
             says = ["It accepts the wrong programs and refuses the correct ones.", count]
         elif not any(accepted):
             named = "refuses every program"

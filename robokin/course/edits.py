@@ -101,25 +101,25 @@ def _misfit(solution: str, wrong: tuple[Edit, ...] | str, name: str) -> str:
 # --- Common slips --------------------------------------------------------------------------
 
 SLIPS = {
-    "sign": "This is the result with a plus instead of a minus, or the other way round.",
-    "order of a product": "Two factors of a product are in the wrong order. In A @ B the right "
-    "factor acts first, seen from the base.",
+    "sign": "A plus sign should be a minus sign, or the other way round.",
+    "order of a product": "Two factors of a product are in the wrong order. In A @ B, the "
+    "right factor is applied first, as seen from the base.",
     "element-wise product": "`*` multiplies element by element; the product of matrices is `@`.",
-    "inverse left out": "Something is used where its inverse is wanted.",
-    "arcsin for atan2": "The angle comes from its sine alone: half of the plane is lost. Use "
-    "arctan2 of sine and cosine.",
-    "x and y exchanged": "arctan2 takes y first, then x.",
+    "inverse left out": "You need an inverse somewhere, but you use the original.",
+    "arcsin for atan2": "The angle is computed from its sine alone, which gives only half of all "
+    "directions. Use arctan2 of sine and cosine.",
+    "x and y swapped": "arctan2 takes y first, then x.",
     "sine for cosine": "A sine is used instead of a cosine, or a cosine instead of a sine.",
     "a root left out": "A square root is missing.",
     "a square left out": "A square is missing.",
     "absolute value left out": "A difference has a sign: take its absolute value.",
-    "least for greatest": "The least is taken instead of the greatest, or the other way round.",
+    "least for greatest": "You take the minimum instead of the maximum, or the other way round.",
     "any for all": "It uses any where all is needed, or the other way round.",
     "a factor of two": "A factor of two is missing, or there is one too many.",
     "the limit itself": "A value exactly at its limit is on the wrong side: < for <=, for example.",
-    "an index off by one": "It takes the element next to the correct one.",
-    "the long way round": "An angle makes a whole turn more than necessary: two values that "
-    "differ by 360 degrees are the same posture.",
+    "an index off by one": "It uses the element next to the correct one.",
+    "the long way round": "A joint makes one whole turn too many: two joint values that differ by "
+    "360 degrees put the arm in the same place.",
 }
 SWAPPED = {
     "min": ("max", "least for greatest"),
@@ -197,7 +197,7 @@ def _in_calls(node: Any, said: Callable[[Any], str]) -> Iterator[tuple[str, Any,
         case ast.Call(func=ast.Attribute(value=a, attr="inverse"), args=[]):
             yield "inverse left out", node, said(a)
         case ast.Call(func=ast.Attribute(attr="arctan2"), args=[y, x]):
-            yield "x and y exchanged", node, f"np.arctan2({said(x)}, {said(y)})"
+            yield "x and y swapped", node, f"np.arctan2({said(x)}, {said(y)})"
             sine = f"{said(y)} / np.hypot({said(y)}, {said(x)})"
             yield "arcsin for atan2", node, f"np.arcsin({sine})"
         case ast.Call(func=ast.Attribute(attr="sqrt"), args=[a]):

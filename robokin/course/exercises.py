@@ -15,7 +15,7 @@ from ..units import deg, mm
 from .answers import TROUBLE
 from .markdown import Text
 
-EMPTY = "Nothing here yet: write your answer into the cell above and run both again."
+EMPTY = "There is no answer yet: write it in the cell above, then run both cells again."
 
 
 @dataclass(frozen=True)

@@ -156,7 +156,7 @@ def _written(path: Path, who: str) -> Note:
     """Write the report in a separate process, so that this kernel is not changed. The process ends
     if the cell is interrupted. Raises ValueError, with the reason, if there is no report.
     """
-    print("Running your lab again. This can take a minute.", flush=True)
+    print("Running your lab again. This can take a few minutes on a slow machine.", flush=True)
     command = [sys.executable, "-P", "-X", "utf8", "-c", START, "report", str(path)]
     child = subprocess.Popen(
         [*command, f"--name={who}", "--to", str(path.parent)],

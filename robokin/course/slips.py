@@ -95,15 +95,15 @@ def _not(value: Any) -> Any:
     return not value
 
 
-DEGREES = "Angles are in radians here: `90 * deg`, and `angle / deg` only to print."
-METRES = "Lengths are in metres here: `350 * mm`, and `length / mm` only to print."
+DEGREES = "Angles are in radians here: write `90 * deg`, and divide by `deg` only for printing."
+METRES = "Lengths are in metres here: write `350 * mm`, and divide by `mm` only for printing."
 # (name, sentence, the change to a result)
 RESULTS = (
     ("degrees for radians", DEGREES, _turn(lambda x: x / deg)),
     ("degrees for radians", DEGREES, _turn(lambda x: x * deg)),
     ("mm for m", METRES, _place(lambda x: x / mm)),
     ("mm for m", METRES, _place(lambda x: x * mm)),
-    ("percent", "A share is a number from 0 to 1 here.", _numbers(lambda x: 100 * x)),
+    ("percent", "Return a number from 0 to 1, not a percentage.", _numbers(lambda x: 100 * x)),
     (
         "a factor of two",
         "Your result is twice what it should be.",
@@ -117,21 +117,21 @@ RESULTS = (
     ),
     (
         "inverse of the answer",
-        "This is the inverse of what is wanted: the base seen from the tool, or 1 / x.",
+        "You return the inverse of the answer, such as the base seen from the tool, or 1 / x.",
         _inverse,
     ),
     ("transposed", "Rows and columns are exchanged.", _transposed),
     (
         "wrapped angle",
-        "Angles are wrapped into -180 to 180 degrees. Here they continue beyond that, or stay "
-        "inside the limits.",
+        "You wrapped the angles to the range -180 to 180 degrees. Here they have to continue past "
+        "180 degrees, or stay inside the limits.",
         _numbers(wrapped),
     ),
     ("off by one sample", "Every value comes one sample too late.", _sample(+1)),
     ("off by one sample", "Every value comes one sample too early.", _sample(-1)),
     (
-        "True and False exchanged",
-        "It says True where False is right, and False where True is right.",
+        "True and False swapped",
+        "It returns True where it should return False, and False where it should return True.",
         _not,
     ),
 )

@@ -42,7 +42,7 @@ class Value(Exercise):
         if isinstance(answer, Mapping) and any(v is None or v is ... for v in answer.values()):
             return unanswered(name)
         if self.given and who is None:
-            line = 'Whose numbers? Give your name: check(..., who="your name").'
+            line = 'Whose numbers should be used? Add your name: check(..., who="your name").'
             return Verdict(name, says=(line,))
         given = self.given(who) if self.given else None
         case = f"  your answer is {in_words(self.code.get('plain', lambda x: x)(answer))}"

@@ -9,20 +9,20 @@ import time
 from collections.abc import Iterator, Sequence
 from typing import TextIO
 
-import numpy as np
-
-from .._arrays import Floats
+from .._arrays import Floats, Ints
 from .visit_collect import (
     FAULTS_SHOWN,
     NEAREST_LIMIT,
     POINTS_SHOWN,
     TASK_LIMIT,
+    Result,
+    Task,
     TaskError,
     answer,
-    itinerary,
     read_task,
     report,
 )
+from .visit_collect.solver import candidates
 
 if sys.platform != "win32":
     import fcntl
@@ -131,9 +131,7 @@ def one(path: str, title: str, above_floor: bool = False) -> bool:
             _tell(f"{title}: {len(task.points)} points to {task.kind}")
         result = answer(task, above_floor=above_floor)
         text = report(task, result)
-        _, q = itinerary(task, result)
-        with np.errstate(over="ignore"):
-            legs = abs(np.diff(q, axis=0)) / task.speeds
+        compared = _compared(task, result)
     except TaskError as error:
         answers.error(f"{title} skipped:" + "".join(f"\n\t{fault}" for fault in error.faults))
         return False
@@ -146,7 +144,8 @@ def one(path: str, title: str, above_floor: bool = False) -> bool:
         f"p0 = {task.p0.tolist()}, pi = {_first(task.points)}, task = {task.kind}"
     )
     log.debug(f"{title}: q of p0 and pi, nan where a joint is free = {_first(task.q)}")
-    log.debug(f"{title}: t1, t2, t3 of each move = {_first(legs)}")
+    for line in compared:
+        log.debug(f"{title}: {line}")
     answers.info(f"{title}: {text}")
     return True
 
@@ -241,7 +240,21 @@ def _tell(text: str) -> None:
             print(text, file=sys.stderr, flush=True)
 
 
-def _first(rows: Floats) -> str:
+def _compared(task: Task, result: Result) -> list[str]:
+    """The times of all moves that were compared, one line for each stop, for the log. There are no
+    more lines once POINTS_SHOWN moves are listed.
+    """
+    lines: list[str] = []
+    count = 0
+    for name, left, times in candidates(task, result):
+        if count >= POINTS_SHOWN:
+            return [*lines, "the times of later moves are not listed"]
+        lines.append(f"t1, t2, t3 from {name} to pi{_first(left)} = {_first(times)}")
+        count += len(left)
+    return lines
+
+
+def _first(rows: Floats | Ints) -> str:
     """The first POINTS_SHOWN rows of an array, as text for the log."""
     more = f" and {len(rows) - POINTS_SHOWN} more" if len(rows) > POINTS_SHOWN else ""
     return f"{rows[:POINTS_SHOWN].tolist()}{more}"

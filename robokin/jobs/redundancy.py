@@ -18,7 +18,7 @@ from .._arrays import ArrayLike, Bools, Floats
 from .._validate import broadcast, floats, instance, short, warn_if_degrees, whole
 from ..arms.planar import ThreeLeverArm
 from ..units import deg
-from .obstacles import distances
+from .obstacles import distances, keeps
 
 Method: TypeAlias = Callable[[ThreeLeverArm, ArrayLike, ArrayLike], Floats]
 
@@ -30,6 +30,7 @@ FLAT = 1e-4  # lever lengths; with this damping the pseudo-inverse exists for a 
 NEAR = 0.5  # lever lengths; an obstacle farther away than this stops no joint
 PULL = 0.1  # a joint aims to cover this fraction of its distance from mid-range in one step
 SLACK = 1e-9  # rad; an excess over a limit of no more than this counts as a rounding error
+TRIES = 100  # random postures among which `random_choice` looks for one that avoids the obstacle
 SAME = 1e-12  # lever lengths; distances that differ by less than this count as equal
 
 
@@ -83,15 +84,15 @@ def race(
 
 
 def methods(obstacle: ArrayLike, seed: int) -> dict[str, Method]:
-    """All methods for `race`, by name. The distance rule uses `obstacle` (2,), the random choice
-    `seed`.
+    """All methods for `race`, by name. The distance rule and the random choice avoid `obstacle`
+    (2,). `seed` is for the random choice.
     """
     return {
         "least movement": least_movement,
         "pseudo-inverse": pseudo_inverse,
         "gradient projection": gradient_projection,
         "equal angles": equal_angles,
-        "random choice": random_choice(seed),
+        "random choice": random_choice(seed, obstacle),
         "distance rule": distance_rule(obstacle),
     }
 
@@ -148,17 +149,30 @@ def equal_angles(arm: ThreeLeverArm, target: ArrayLike, previous: ArrayLike) -> 
     return _kept(arm, arm.family(target, alpha), target)
 
 
-def random_choice(seed: int) -> Method:
+def random_choice(seed: int, obstacle: ArrayLike | None = None) -> Method:
     """Return a method that chooses a random posture of the family, with alpha uniformly
-    distributed. `seed` is for the random generator. Source: 003, I.4 (Xi Lei-ping), where the
-    posture is chosen among those that avoid the obstacle.
+    distributed. `seed` is for the random generator. With an obstacle (2,), it chooses among the
+    postures for which all levers stay at least L/7 away from the obstacle on the motion from the
+    previous posture; it fails if none of 100 random postures does. Source: 003, I.4 (Xi Lei-ping),
+    which describes the choice in words and gives no distance; L/7 is that of III.3.2.
     """
     dice = np.random.default_rng(whole(seed, "seed", 0))
+    H = None if obstacle is None else floats(obstacle, "obstacle", 2)
 
     def chosen(arm: ThreeLeverArm, target: ArrayLike, previous: ArrayLike) -> Floats:
         target, previous = _asked(arm, target, previous)
         low, high = arm.alpha_range(target)
-        return arm.family(target, low + (high - low) * dice.random(low.shape))
+        if H is None:
+            return arm.family(target, low + (high - low) * dice.random(low.shape))
+        alphas = low + (high - low) * dice.random((TRIES, *low.shape))
+        rows = arm.family(target, alphas)
+        stay = np.isnan(rows)  # in place of a posture that does not exist
+        kept = keeps(arm, previous, np.where(stay, previous, rows), H, arm.lever / 7)
+        safe = np.logical_and(kept, ~stay.any(axis=-1))
+        first = safe.argmax(axis=0)
+        row: Floats = np.take_along_axis(rows, first[None, ..., None], axis=0)[0]
+        row[~safe.any(axis=0)] = np.nan
+        return row
 
     return chosen
 

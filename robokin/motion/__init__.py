@@ -1,6 +1,7 @@
 """Motions: time laws, paths, derivatives and recordings."""
 
 from .derivatives import differentiate
+from .duration import shortest_duration
 from .laws import TimeLaw, linear, quintic, trapezoidal
 from .maximum import Maximum, refined_maximum
 from .paths import blend, lin, lin_lin, ptp
@@ -21,5 +22,6 @@ __all__ = [
     "quintic",
     "record",
     "refined_maximum",
+    "shortest_duration",
     "trapezoidal",
 ]

@@ -81,7 +81,7 @@ def clearance_explorer(
     kept = "farther than" if each.min() >= distance else "nearer than"
     summary = (
         f"{title}: lever {lever} of {arm.name} comes as near as {in_words(each.min())}, {kept} the "
-        f"{in_words(distance)} to keep."
+        f"required {in_words(distance)}."
     )
     moments = along(path, np.linspace(0, 1, 25))
     page = arm_page(

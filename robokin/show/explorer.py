@@ -30,7 +30,7 @@ TURNS = "Roll, pitch and yaw rotate about the base's x, then y, then z axis."
 TAKE = "Take hold of a ring and drag it, or move the sliders. "
 WORDS: Mapping[str, str] = {
     "target": "target",
-    "scene": "{name} and a target to be moved, at {values}. {says}",
+    "scene": "{name} and a target that can be moved, at {values}. {says}",
     "count": "{count} of {all}",
     "branch": "branch",
     "nearest": NEAREST,

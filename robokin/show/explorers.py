@@ -102,7 +102,7 @@ def joint_explorer(
     values = ", ".join(f"q{i + 1} {number(x, 0)}" for i, x in enumerate(start / sizes(arm)))
     flange = arm.fk(start).translation / size
     summary = (
-        f"{arm.name} with joints to be turned, at {values}: the flange is at "
+        f"{arm.name} with joints that can be turned, at {values}: the flange is at "
         f"({', '.join(number(x, facts[0][3]) for x in flange)}) {name}."
     )
     page = arm_page(

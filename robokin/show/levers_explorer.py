@@ -47,8 +47,8 @@ def levers_explorer(arm: ThreeLeverArm) -> Explorer:
     before, _ = arm.least(place, arm.limits.mean(axis=-1))
     where = ", ".join(number(x, 0 if size == mm else 3) for x in place / size)
     summary = (
-        f"{arm.name} and a point to be moved, at ({where}) {name}, with a free angle: gamma, beta, "
-        f"alpha {', '.join(number(x, 1) for x in before / deg)}°."
+        f"{arm.name} and a point that can be moved, at ({where}) {name}, with a free angle: gamma, "
+        f"beta, alpha {', '.join(number(x, 1) for x in before / deg)}°."
     )
     data = _page(arm, f"{arm.name}: move the point", summary, before, place[None], before[None], ())
     return Explorer(data, picture(summary, arm, before))

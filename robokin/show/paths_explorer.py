@@ -56,7 +56,7 @@ WORDS_HERE = {
 }
 MEANT = (
     TAKE + "Click a row of the table: the arm follows that path. Path a: each motor runs at the "
-    "limit until it is done; a small circle marks each place where a motor stops. Paths b and c: "
+    "limit until it is done; a small circle marks each point where a motor stops. Paths b and c: "
     "the gripper moves in a straight line; on c, a motor reverses. Path d: all motors "
     "stop together. The dots show all paths at the same moment. Off the line: the greatest "
     "distance of a path from the straight line."

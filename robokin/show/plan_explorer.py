@@ -35,9 +35,9 @@ WAYS = ("the plan", "two via points", "direct")
 UNCHECKED = {WAYS[1]: "via points", WAYS[2]: "direct"}  # the names that `unchecked_path` uses
 TITLE = "From K to K1, past an obstacle H"
 MEANT = (
-    "Drag K, K1 and H, or move them with the arrow keys. The cube holds all postures in steps of "
-    "12° (the plan searches in finer ones). In the grey body a lever is too near to H; the squares "
-    "are the wave of the search, the triangles are the target, and the line is the path."
+    "Drag K, K1 and H, or move them with the arrow keys. The cube contains all postures in steps "
+    "of 12° (the plan searches in finer ones). In the grey body, a lever is too near to H; the "
+    "squares are the wave of the search, the triangles are the target, and the line is the path."
 )
 WORDS: Mapping[str, str] = {
     "K": "K, where the gripper starts",
@@ -85,7 +85,8 @@ def plan_explorer(
         "sides": False,
     }
     answer = _answer(arm, first)
-    summary = f"{arm.name}, a target and an obstacle to be moved. {known.words} {answer['result']}"
+    what = "a target and an obstacle that can be moved"
+    summary = f"{arm.name}, {what}. {known.words} {answer['result']}"
     return Live(
         dict(_page(arm, first, known, summary)),
         _picture(arm, first, answer, summary),

@@ -48,7 +48,7 @@ GREEDY, BEST = JOINT_STYLES[1]["color"], JOINT_STYLES[0]["color"]
 WORDS = {
     "task": "task",
     "tour": "tour",
-    "order": "order, and when (s)",
+    "order": "order and times (s)",
     "visit": "Your order visits {count} of {n} in {t} s.",
     "collect": "Your order brings {count} of {n} in {t} s.",
     "late": "too late:",
@@ -69,9 +69,9 @@ WORDS = {
     "away": "out of reach",
 }
 MEANT = (
-    "Tap the points in an order of your own, or drag them. A second tap takes a point out of your "
-    "order. A drag moves a point or p0 in the plane of the screen; turn the view to move it "
-    "another way. Click a row of the table to choose its tour, and play it. The dotted circle "
+    "Tap the points in an order of your own, or drag them. Tap a point again to remove it from "
+    "your order. A drag moves a point or p0 in the plane of the screen; turn the view to move it "
+    "in another direction. Click a row of the table to choose its tour. The dotted circle "
     "shows how far the arm reaches on the floor; a wide red band shows where the tool dips under "
     "the floor."
 )
@@ -216,12 +216,12 @@ def _says(task: Task, results: dict[str, Result], n: str) -> str:
         return f"{_alone(task, greedy, n)} The best order appears when you let go."
     if lost := len(best.order) - few:
         return (
-            f"Greed loses {_points(lost)}: nearest first visits {few} of {n}, the best order "
+            f"Greed loses {_points(lost)}: nearest first visits {few} of {n}, and the best order "
             f"{few + lost}."
         )
     late = greedy.time - best.time
     if round(late, 2):
-        return f"Greed loses no point, but {late:.2f} s: both visit {few} of {n}."
+        return f"Greed loses no points, but it loses {late:.2f} s: both visit {few} of {n}."
     return f"Greed loses nothing: nearest first visits {few} of {n}, and no order is better."
 
 

@@ -88,9 +88,9 @@ def form(answer: Any, numbers: Any) -> Line:
 def faults(line: Line, numbers: Any) -> list[Fault]:
     place, least, arms = line
     if (np.array(place) < LOW - 1e-9).any() or (np.array(place) > HIGH + 1e-9).any():
-        name = "millimetres for metres" if max(map(abs, place)) > 2 else "the bin stands elsewhere"
+        name = "millimetres for metres" if max(map(abs, place)) > 2 else "the bin is somewhere else"
         says = (
-            "The bin must stand at x from 150 to 350 mm and y from −450 to 450 mm. Give both "
+            "The bin must be at x from 150 to 350 mm and y from −450 to 450 mm. Give both "
             "numbers in metres. Nothing else was checked."
         )
         return [(name, says)] * COUNT
@@ -102,7 +102,7 @@ def faults(line: Line, numbers: Any) -> list[Fault]:
     most = int(numbers["most"])
     if arms < 1 or arms > MOST_ARMS or not none_missed(numbers, place, arms):
         too_few = 1 <= arms <= MOST_ARMS
-        name = "the bound taken for enough" if arms == bound["the bound"] else "too few arms"
+        name = "the bound is not enough" if arms == bound["the bound"] else "too few arms"
         many = "one arm" if arms == 1 else f"{arms} arms"
         says = f"With {many} and this bin, some objects of a stream are missed."
         if not too_few:
@@ -115,12 +115,12 @@ def faults(line: Line, numbers: Any) -> list[Fault]:
 
 
 WHY = {
-    "rounded down": "You rounded the bound down. With so few arms, more objects come than they "
-    "have time for.",
-    "there without back": "c is the time there and back: twice the time of one way.",
+    "rounded down": "You rounded the bound down. So few arms do not have enough time for all "
+    "the objects.",
+    "there without back": "You used the time of one way. c is the time there and back.",
     "the bin of the lab": "You used c of the lab's bin. Your bin has a different c.",
-    "the mean over the window": "You used the mean over the window. It is no bound: the arms "
-    "may take most objects near the bin. Use the least time.",
+    "the mean over the window": "You used the mean over the window. That is not a bound, because "
+    "the arms may take most objects near the bin. Use the least time.",
     "another bound": "The bound is c v / g, rounded up: c is 2 ways_from([x, y, 0.25]).min() for "
     "your bin, and g is the mean gap.",
 }

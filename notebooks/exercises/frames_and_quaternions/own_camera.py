@@ -70,7 +70,7 @@ def faults(camera: Transform, given: Given) -> list[Fault]:
     """The faults of the position, of the direction of z, and of the directions of x and y."""
     back = camera.inverse()
     if found_in(camera, given) and not found_in(back, given):
-        says = "You gave the base as the camera sees it: the inverse of the camera's pose."
+        says = "Your pose is that of the base as the camera sees it, the inverse of the right one."
         return [("the inverse pose", says)] * 4
     return found_in(camera, given)
 
@@ -159,8 +159,8 @@ def lines(rotation: Floats, look: Floats, eye: Floats, part: Floats) -> tuple[Di
             "the inverse rotation",
             rotation[2],
             look,
-            "The inverse rotation would be right. The axes are the columns of the matrix, not the "
-            "rows.",
+            "The inverse of your rotation would be right. The axes are the columns of the matrix, "
+            "not the rows.",
         ),
         ("x looks at the part", x, look, "Your x axis points at the part."),
         ("y looks at the part", y, look, "Your y axis points at the part."),
@@ -173,7 +173,7 @@ def lines(rotation: Floats, look: Floats, eye: Floats, part: Floats) -> tuple[Di
             "It points along the line from the base to the part, but the camera is at eye: use "
             "part - eye.",
         ),
-        ("the sum for the difference", z, unit(part + eye), "It points along part + eye."),
+        ("the sum instead of the difference", z, unit(part + eye), "It points along part + eye."),
         ("looks at the base", z, unit(-eye), "It points at the origin of the base."),
         ("looks away from the base", z, unit(eye), "It points away from the origin of the base."),
     )
@@ -209,7 +209,7 @@ def turns(look: Floats) -> tuple[tuple[str, Floats, str], ...]:
         ("looks up", look * [1, 1, -1], "It points up as steeply as it should point down."),
         ("mirrored", look * [1, -1, 1], "Its y has the wrong sign: look at your rotation about z."),
         ("mirrored", look * [-1, 1, 1], "Its x has the wrong sign: look at your rotation about z."),
-        ("x and y exchanged", look[[1, 0, 2]], "Its x and y are exchanged: arctan2 takes y first."),
+        ("x and y exchanged", look[[1, 0, 2]], "Its x and y are exchanged: arctan2(y, x)."),
         ("half the rotation", unit(Z + look), "You rotated it by half the angle."),
         ("twice the rotation", 2 * look[2] * look - Z, "You rotated it by twice the angle."),
         (

@@ -12,8 +12,8 @@ from robokin.course.slips import METRES
 COUNT = 1
 GOAL = {
     "wanted": 4,
-    "holds": "{count} ways exist. Do all of them have front −1?",
-    "open": "{count} ways exist. The exercise asks for {wanted}.",
+    "holds": "The arm reaches this pose in {count} ways. Do all of them have front −1?",
+    "open": "The arm reaches this pose in {count} ways. The exercise asks for {wanted}.",
 }
 
 
@@ -26,7 +26,7 @@ def form(answer: Any, given: Any) -> Transform:
         if np.shape(answer) == (6,):
             hint = ": six numbers are a posture; IRB140.fk(q) gives its pose"
         elif np.shape(answer) == (3,):
-            hint = ": a place without an orientation"
+            hint = ": a position without an orientation"
         elif np.shape(answer) == (4, 4):
             hint = "; Transform.from_matrix turns it into one"
     raise ValueError(f"Wanted one Transform, got {in_words(answer)}{hint}.")
@@ -46,21 +46,21 @@ def faults(pose: Transform, given: Any) -> list[Fault]:
     usable = int(within(IRB140, rows).all(axis=-1).sum())
     if count == 8 and usable == 4:
         says = (
-            "Four rows are inside the limits, but all eight exist. A row counts even if a joint "
-            "is past its limit, because it does reach the pose."
+            "Four rows are inside the limits, but all eight exist. Count a row even if a joint is "
+            "past its limit, because it still reaches the pose."
         )
         return [("limits counted", says)]
     if count != 4:
         says = (
-            f"{count} rows of ik exist. For which wrist centres does the triangle of front +1 not "
-            "close, while that of front −1 does?"
+            f"{count} rows of ik exist. For which wrist centres does the triangle close with front "
+            "−1, but not with front +1?"
         )
         return [("all eight ways" if count == 8 else f"{count} ways", says)]
     if exists[:4].any():
         says = (
             "Four rows exist, but they have front +1: your target is too far away for an arm that "
-            "faces away. The exercise asks for the other four. A triangle also fails to close if "
-            "the wrist centre is too close to the shoulder."
+            "faces away. The exercise asks for the other four rows. A triangle also fails to close "
+            "if the wrist centre is too close to the shoulder."
         )
         return [("the rows that face the target", says)]
     names = [
@@ -68,8 +68,8 @@ def faults(pose: Transform, given: Any) -> list[Fault]:
     ]
     if names:
         says = (
-            f"The right four rows exist, but at a singularity ({', '.join(names)}). There two rows "
-            "are the same posture, or joints are free. Move the pose a little."
+            f"The right four rows exist, but the pose is at a singularity ({', '.join(names)}), "
+            "where two rows are the same posture or joints are free. Move the pose a little."
         )
         return [("rows twice: a singular pose", says)]
     return []

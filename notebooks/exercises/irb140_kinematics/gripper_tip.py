@@ -54,31 +54,31 @@ def form(result: Any, case: tuple[Any, ...]) -> Transform:
     if isinstance(result, Transform):
         hint = "; q is one posture (6,)"
     elif isinstance(result, Quaternion):
-        hint = ": an orientation without a place"
+        hint = ": an orientation without a position"
     elif np.shape(result) == (3,):
-        hint = ": a place without an orientation"
+        hint = ": a position without an orientation"
     elif np.shape(result) == (4, 4):
         hint = "; Transform.from_matrix turns it into one"
     raise ValueError(f"Wanted one Transform, got {in_words(result)}{hint}.")
 
 
 def law(case: tuple[Any, ...], yours: Transform, wanted: Transform) -> str | None:
-    """Say how the tip, seen from the flange, differs from the gripper's tip."""
+    """How the answer differs from the gripper's tip, in flange coordinates."""
     q, upper, length, turn = case
     seen = flange(q, upper).inverse() @ yours
     if abs(seen.translation - [0, 0, length]).max() > 1e-7:
         tip_at = in_mm(wanted.translation)
         there, is_at = apart(np.array([0, 0, length]) / mm, seen.translation / mm)
         return (
-            f"should be at {tip_at} mm: seen from the flange, the tip is at ({there}) mm, and "
+            f"should be at {tip_at} mm: in flange coordinates, the tip is at ({there}) mm, but "
             f"yours is at ({is_at}) mm"
         )
     off = float(seen.rotation.angle_to(turned(turn, Z)))
     if off > 1e-7:
         return (
-            "is in the right place, but its rotation should be "
-            f"{turn / deg:.1f}° about z, seen from the flange; yours is "
-            f"{apart(off / deg, 0)[0]}° away from that"
+            "is in the right place, but seen from the flange, it should be turned by "
+            f"{turn / deg:.1f}° about z; your orientation is {apart(off / deg, 0)[0]}° away from "
+            "that"
         )
     return None
 

@@ -96,7 +96,7 @@ def faults(design: Mapping[str, Any], given: Mapping[str, Any]) -> list[Fault]:
 
 
 def past_limits(q: Floats, t: Floats) -> list[Fault]:
-    """The joints that no choice of whole turns keeps within their limits."""
+    """The joints that leave their limits whatever whole turns we add."""
     turns = 2 * np.pi * np.arange(-3, 4)
     names, lines, ends = [], [], True
     for k, (low, high) in enumerate(IRB140.limits):
@@ -112,23 +112,23 @@ def past_limits(q: Floats, t: Floats) -> list[Fault]:
         ends &= not past[[0, -1]].any()
         lines.append(
             f"Joint {k + 1} is past its limit of {limit / deg:.0f}° by "
-            f"{apart(over[i, best] / deg, 0)[0]}° at t = {t[i]:.2f} s (past it from "
+            f"{apart(over[i, best] / deg, 0)[0]}° at t = {t[i]:.2f} s (it is past the limit from "
             f"{t[past][0]:.2f} to {t[past][-1]:.2f} s)."
         )
         if within(IRB140, q)[:, k].all():
             ends = False
             ways = track[:, best] / deg
             lines.append(
-                "Each sample alone has a value inside, but the whole motion does not stay inside: "
-                f"without a jump, the joint goes from {ways.min():.1f}° to {ways.max():.1f}°, or "
-                "through the same range shifted by whole turns. It passes a limit wherever it "
-                "starts."
+                "Each single sample has a value inside the limits, but one continuous motion does "
+                f"not stay inside: the joint turns between {ways.min():.1f}° and "
+                f"{ways.max():.1f}°, or the same range shifted by whole turns, and each of these "
+                "ranges exceeds a limit."
             )
     if not names:
         return []
     which = f"joint {names[0]}" if len(names) == 1 else f"joints {listed(names)}"
     if ends:
-        lines.append("At both ends every joint is inside: look at the motion in between.")
+        lines.append("At both ends, every joint is inside: look at the motion in between.")
     return [(f"past a limit: {which}", " ".join(lines))]
 
 
@@ -139,8 +139,8 @@ def speeds(q: Floats, duration: float, given: Mapping[str, Any]) -> list[Fault]:
     if steps.max() > 1.5:
         i, k = np.unravel_index(int(steps.argmax()), steps.shape)
         says = (
-            f"Joint {k + 1} jumps by {steps[i, k] / deg:.0f}° at t = {i * dt:.2f} s: with these "
-            "flags the arm passes a singularity."
+            f"Joint {k + 1} jumps by {steps[i, k] / deg:.0f}° at t = {i * dt:.2f} s, because with "
+            "these flags the arm passes a singularity."
         )
         return [(f"a jump: joint {k + 1}", says)] * 2
     assert IRB140.speed_limits is not None
@@ -149,15 +149,15 @@ def speeds(q: Floats, duration: float, given: Mapping[str, Any]) -> list[Fault]:
     most, share = float(used[i, k]), given["share"]
     reached, asked = apart(100 * most, 100 * share, 0)
     busiest = (
-        f"Joint {k + 1} is the busiest: it reaches {reached} % of its speed limit at "
-        f"t = {i * dt:.2f} s, and it may reach {asked} %"
+        f"Joint {k + 1} is closest to its speed limit: it reaches {reached} % of it at "
+        f"t = {i * dt:.2f} s, and up to {asked} % is allowed"
     )
     if most > EASE * share:
         return [(f"too fast: joint {k + 1}", f"{busiest}. The motion needs more time.")]
     if most * SLACK * EASE < share:
         says = (
-            f"{busiest}. The duration may be {SLACK} times the shortest one, and speeds are "
-            "proportional to 1 / duration: choose a shorter duration."
+            f"{busiest}. Choose a shorter duration: at most {SLACK} times the shortest one is "
+            "allowed, and speeds are proportional to 1 / duration."
         )
         return [("slower than asked", says)]
     return []

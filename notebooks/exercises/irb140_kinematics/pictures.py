@@ -90,8 +90,8 @@ def p9_view() -> Any:
     distance = np.linspace(30.1, 300, 400)
     missed = [arcsin_miss(d * mm) for d in distance]
     fig = figure(
-        f"The arcsine formula misses by up to {max(missed):.0f} mm where the wrist centre is "
-        f"nearer to joint 2 than {LEAST:.0f} mm; farther away it is right.",
+        f"With the arcsine, the wrist centre is off by up to {max(missed):.0f} mm if it is less "
+        f"than {LEAST:.0f} mm from joint 2. Farther away, the formula is right.",
         9,
         3.2,
     )
@@ -101,8 +101,8 @@ def p9_view() -> Any:
         distance,
         {"miss": missed},
         xlabel="d, from joint 2 to the wrist centre, mm",
-        ylabel="miss, mm",
-        title=f"Nearer than {LEAST:.0f} mm the arcsine misses without a warning",
+        ylabel="error, mm",
+        title=f"Below {LEAST:.0f} mm, the arcsine is wrong without a warning",
     )
     ax.axvline(LEAST, color=INK, lw=1, ls="--")
     ax.text(LEAST + 4, 45, "shoulder angle 90°")
@@ -112,7 +112,7 @@ def p9_view() -> Any:
 
 
 def p10_view() -> str:
-    lines = [f"Values of a joint that stand for {p10()['q6']}, inside its limits:"]
+    lines = [f"Values inside the limits that give the same posture as {p10()['q6']}:"]
     for k, (low, high) in enumerate(IRB140.limits):
         values = JOINT_6 + 2 * np.pi * np.arange(-5, 6)
         inside = [signed(float(x)) for x in values if low <= x <= high]

@@ -42,18 +42,19 @@ def law(case: tuple[float, str], yours: float, wanted: float) -> str | None:
             return None
         most, asked = apart(SHARES[corner] * 0.5 * D / mm, distance / mm)
         return (
-            f"should be NaN: with the largest blend, 0.5, the tool passes {most} mm from via, and "
-            f"the task asks for {asked} mm"
+            f"should be NaN: even with the largest blend, 0.5, the tool passes {most} mm from via, "
+            f"but the task asks for {asked} mm"
         )
-    should = f"should be {wanted:.4g}: in the middle of the {corner} the tool is then"
+    should = f"should be {wanted:.4g}, so that the tool is {{}} mm from via in the middle of the "
+    should += corner
     if not 0 <= yours <= 0.5:
-        return f"{should} {distance / mm:.1f} mm from via"
+        return should.format(f"{distance / mm:.1f}")
     middle = blend(START, VIA, GOAL, yours, 0.5, corner=corner)
     gap = length(middle.translation - P1)
     if abs(gap - distance) <= 0.05 * mm:
         return None
     asked, is_at = apart(distance / mm, gap / mm)
-    return f"{should} {asked} mm from via; with {yours:.6g} it is {is_at} mm"
+    return f"{should.format(asked)}; with {yours:.6g}, it is {is_at} mm from via"
 
 
 def same(a: float, b: float) -> bool:

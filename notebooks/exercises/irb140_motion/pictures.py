@@ -39,15 +39,15 @@ def p2_view() -> Any:
     facts, angles = p2(), abs(along()[:, 0] - along()[0, 0]) / deg
     clock = np.linspace(0, facts["lin_time"], 401)
     times = {
-        "LIN, one pace": S * facts["lin_time"],
-        "LIN, free pace": free_pace(),
+        "LIN, constant pace": S * facts["lin_time"],
+        "LIN, varying pace": free_pace(),
         "PTP": np.interp(angles, angles[[0, -1]], [0, facts["ptp_time"]]),
     }
     fig = figure(
         "The angle that joint 1 has turned, over time. PTP is a straight line, as steep as the "
-        f"limit allows, and ends at {facts['ptp_time']:.2f} s. LIN with a free pace is nearly as "
-        f"steep and ends at {facts['best']:.2f} s. LIN with one pace is as steep only in the "
-        f"middle and ends at {facts['lin_time']:.2f} s.",
+        f"limit allows, and ends at {facts['ptp_time']:.2f} s. LIN with a varying pace is nearly "
+        f"as steep and ends at {facts['best']:.2f} s. LIN with a constant pace is as steep only in "
+        f"the middle and ends at {facts['lin_time']:.2f} s.",
         height=3.6,
     )
     ax = fig.subplots()
@@ -58,14 +58,14 @@ def p2_view() -> Any:
         turned,
         xlabel="time t, s",
         ylabel="turn of joint 1, °",
-        title="One pace loses time where joint 1 is slow",
+        title="A constant pace loses time where joint 1 is slow",
     )
     fig.tight_layout()
     return fig
 
 
 def p3_view() -> str:
-    lines = [f"Values of joint 6 that give the same posture, and the turn from {FROM:g}° to each:"]
+    lines = [f"Values of joint 6 for the same posture, and how far each is from {FROM:g}°:"]
     for k in (-2, -1, 0, 1):
         value = TO + 360 * k
         inside = LOW[5] <= value * deg <= HIGH[5]
@@ -101,9 +101,9 @@ def p5_view() -> str:
             f"{a:.1f} rad/s²; differentiate(q, t, 2) {twice:.1f} rad/s²"
         )
     lines.append(
-        "The change of the speed stays the same: it belongs to the robot's motion. The quotients "
-        "do not: they belong to the method. (differentiate spreads the change over two steps, so "
-        "its quotient is about half as large.)"
+        "The change of the speed stays the same: it is a property of the robot's motion. The "
+        "quotients depend on the step: they come from the method. (differentiate spreads the "
+        "change over two steps, so its quotient is about half as large.)"
     )
     return "\n".join(lines)
 
@@ -120,9 +120,7 @@ def p6_view() -> str:
 
 
 def p7_view() -> str:
-    lines = [
-        "Joint 3's greatest acceleration where both corners pass at the same distance from via:"
-    ]
+    lines = ["Joint 3's greatest acceleration if both corners pass at the same distance from via:"]
     blends = np.array([0.05, 0.1, 0.15, 0.2])
     found = zip(blends, joint_3(blends, "parabola"), joint_3(blends / 0.75, "quintic"), strict=True)
     for b, parabola, quintic in found:
@@ -157,7 +155,7 @@ def p8_view() -> Any:
 
 
 def p9_view() -> str:
-    lines = ["Where the motion begins and ends, from start and goal:"]
+    lines = ["How far from the start the motion begins, and how far from the goal it ends:"]
     for b in (0.5, 0.51, 0.55, 0.6):
         begins, ends = misses(b)
         lines.append(f"b = {b:.2f}: {begins:.2f} mm and {ends:.2f} mm")

@@ -56,9 +56,9 @@ def cases(rng: np.random.Generator) -> list[Case]:
         one_joint(6, 350, -300),
         one_joint(6, 300, 20),  # 380 would be inside
         one_joint(6, -300, -20),
-        case(HOME, HOME, [0, 0.5, 1]),  # the arm stays
+        case(HOME, HOME, [0, 0.5, 1]),  # the arm does not move
         case(HOME, [400, 380, 320, 365, 390, 375], [0, 0.5, 1]),  # all one turn further
-        one_joint(6, 380, -340, 0.3),  # stays, two turns further
+        one_joint(6, 380, -340, 0.3),  # does not move, two turns further
         one_joint(6, 350, -710),  # three turns
         one_joint(6, -350, 710),
         one_joint(4, -190, -565),  # -205 would be outside
@@ -78,7 +78,7 @@ def cases(rng: np.random.Generator) -> list[Case]:
         low, high = limits.T
         q0 = rng.uniform(low, high).round(2)
         q1 = wrapped(rng.uniform(low, high).round(2))
-        if (abs(abs(wrapped(q1 - q0)) - np.pi) > 0.05).all():  # at half a turn both ways are short
+        if (abs(abs(wrapped(q1 - q0)) - np.pi) > 0.05).all():  # not half a turn
             found.append((q0, q1, rng.uniform(0, 1, 7).round(3), limits))
     return found
 
@@ -97,7 +97,7 @@ def form(result: Any, case: Case) -> Floats:
 def law(case: Case, yours: Floats, wanted: Floats) -> str | None:
     q0, q1, s, limits = case
     if yours.shape != wanted.shape:
-        return f"should have the shape {wanted.shape}: a row for each s, six joints in it"
+        return f"should have the shape {wanted.shape}: a row of six joint values for each s"
     wrong = ~(abs(yours - wanted) <= 1e-6)
     if not wrong.any():
         return None
@@ -108,7 +108,7 @@ def law(case: Case, yours: Floats, wanted: Floats) -> str | None:
     at, is_at = apart(wanted[k, i] / deg, yours[k, i] / deg)
     return (
         f"joint {i + 1} should turn from {a:g}° to {b:g}° (its limits are {low:g}° and {high:g}°): "
-        f"at s = {s[k]:.3g} it should be at {at}°, and is at {is_at}°"
+        f"at s = {s[k]:.3g} it should be at {at}°, but is at {is_at}°"
     )
 
 

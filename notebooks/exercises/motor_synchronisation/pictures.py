@@ -27,7 +27,7 @@ def p1_view() -> Any:
     ax = fig.subplots()
     ax.plot(t, alpha, color=JOINT_STYLES[0]["color"], lw=2.4)
     ax.set(xlabel="time, s", ylabel="α, °", yticks=range(0, 181, 45))
-    ax.set_title(f"Beside the axis joint 1 turns at up to {facts['most']:.0f}°/s")
+    ax.set_title(f"Beside the axis, joint 1 turns at up to {facts['most']:.0f}°/s")
     fig.tight_layout()
     return fig
 

@@ -152,7 +152,7 @@ def faults(path: Floats, given: Mapping[str, Any]) -> list[tuple[str, str]]:
         stands, got = apart(start / deg, path[0] / deg)
         says = f"The path begins at ({got})°, but the arm stands at ({stands})°."
         if abs(path[-1] - start).max() <= 1e-4:
-            says += " There the path ends."
+            says += " That is where the path ends."
         elif abs(path[0, ::-1] - start).max() <= 1e-4:
             says += " These are its angles in the order alpha, beta, gamma."
         found.append(("another start", says))
@@ -193,7 +193,7 @@ def too_near(path: Floats, places: Floats, name: str, distance: float) -> list[t
     gripper = float(np.hypot(*(points[:, None] - places).T).min())
     corners = min(float(distances(path, place).min()) for place in places)
     says = (
-        f"Between postures {part + 1} and {part + 2} lever {('OB', 'BA', 'AK')[lever]} comes as "
+        f"Between path[{part}] and path[{part + 1}], lever {('OB', 'BA', 'AK')[lever]} comes as "
         f"near as {near} mm to {name}; the task asks for {wanted} mm."
     )
     if corners >= distance:

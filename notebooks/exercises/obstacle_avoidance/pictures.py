@@ -93,7 +93,7 @@ def p2_view() -> Any:
 
 def p3_view() -> Any:
     fig = figure(
-        "A lever from the origin to (1, 0) m. The obstacle lies beyond its end: the nearest place "
+        "A lever from the origin to (1, 0) m. The obstacle is beyond its end: the nearest point "
         "of the lever is the end, half a metre away; the line through the lever is nearer.",
         height=2.6,
     )
@@ -110,7 +110,7 @@ def p3_view() -> Any:
         x, y = (np.array(foot) + H) / 2
         side = "right" if name == "end" else "left"
         ax.text(x, y, f"  {facts[name]:.0f} mm  ", color=color, ha=side, va="center")
-    plane(ax, (-0.1, -0.15), (1.8, 0.55), "Beyond the end of a lever its end is the nearest place")
+    plane(ax, (-0.1, -0.15), (1.8, 0.55), "Beyond the end of a lever, its end is the nearest point")
     fig.tight_layout()
     return fig
 

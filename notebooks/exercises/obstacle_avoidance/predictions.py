@@ -104,8 +104,8 @@ def p3() -> dict[str, Any]:
     return guesses | {"x": H[0], "y": H[1], "right": nearest(guesses, away)}
 
 
-SAMPLED = np.array([1.7, 1.0])  # m: the obstacle of p4
-SEEN = 7
+SAMPLED = np.array([1.65, 1.1])  # m: the obstacle of p4
+SEEN = 6
 
 
 @cache

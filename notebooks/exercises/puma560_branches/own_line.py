@@ -143,7 +143,7 @@ def row_fault(line: Judged, row: int) -> tuple[str, str]:
     most = over.max(axis=0)
     since = 100 * sample / (len(over) - 1)
     says = (
-        f"On row {row} joint {joint + 1} is past its limit from {since:.0f} % of the time on, by "
+        f"On row {row} joint {joint + 1} goes past its limit after {since:.0f} % of the time, by "
         f"up to {most[joint] / deg:.0f}°."
     )
     if line.at_start[row] and line.at_goal[row]:

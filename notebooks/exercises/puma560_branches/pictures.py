@@ -34,9 +34,9 @@ def p4_view() -> Any:
 def p2_view() -> Any:
     facts = of.p2()
     fig = figure(
-        "The two values of joint 1 over the distance of the wrist centre from axis 1. At 800 mm "
+        "The two values of joint 1 against the distance of the wrist centre from axis 1. At 800 mm "
         f"they differ by {np.ptp(of.waists(800 * mm)):.0f} degrees, at {facts['rho']:.0f} mm by "
-        f"{facts['turn']:.0f} degrees, at {D3 / mm:.2f} mm they are one.",
+        f"{facts['turn']:.0f} degrees, at {D3 / mm:.2f} mm they coincide.",
         7,
         3.6,
     )
@@ -50,7 +50,7 @@ def p2_view() -> Any:
     ax.text(700, both[92, 1] - 9, "behind", ha="center", va="top")
     ax.axvspan(100, D3 / mm, color=AREA)
     ax.set(xlabel="distance from axis 1, mm", ylabel="q1, °", xlim=(100, 850), ylim=(0, 180))
-    ax.set(yticks=range(0, 181, 30), title="At the offset the two values are one")
+    ax.set(yticks=range(0, 181, 30), title="At the offset, the two values coincide")
     fig.tight_layout()
     return fig
 
@@ -96,7 +96,7 @@ def p6_view() -> Any:
         above = 0.4 if name == "elbow" else 1.35
         left.text(0.09, above * most[name], name, fontsize=9)
     left.set(xlabel="distance m, mm", ylabel="greatest joint speed, °/s")
-    left.set(ylim=(10, 1e5), title="The price depends on the direction")
+    left.set(ylim=(10, 1e5), title="The joint speed depends on the direction")
     right.set(xlabel="distance m, mm", ylabel="distance from singularity")
     right.set(title="The distance from singularity does not")
     right.legend(fontsize=9)

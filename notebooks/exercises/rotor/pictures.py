@@ -16,8 +16,8 @@ def p8_view() -> Any:
     away = np.linspace(-180, 180, 361)
     says = (
         "The torque over the angle from the rotor to the field. A magnet is pulled hardest at 90 "
-        "degrees and has one place of rest. Plain iron is not pulled at 90 degrees at all and "
-        "rests at 0 and at 180."
+        "degrees and comes to rest at one angle only. Plain iron is not pulled at 90 degrees at "
+        "all and rests at 0 and at 180."
     )
     fig = figure(says, 6.4, 3.2)
     ax = fig.subplots()

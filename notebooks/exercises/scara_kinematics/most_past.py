@@ -19,7 +19,7 @@ NAMES = (("°", deg), ("°", deg), ("°", deg), (" mm", mm))
 
 
 def cases(rng: np.random.Generator) -> list[Case]:
-    """Radius, turns, elbow, and limits that one or another joint passes, on either side."""
+    """Radius, turns, elbow, and limits that some joint exceeds, on either side."""
     own = SCARA.limits
     tight = np.array([(-60, 80), (-110, 140), (-100, 300), (0, 115)])
     other = np.array([(-35, 150), (20, 160), (-400, 90), (125, 180)])
@@ -60,7 +60,7 @@ def law(case: Case, yours: Floats, right: Floats) -> str | None:
     for k, (unit, size) in enumerate(NAMES):
         if not abs(yours[k] - right[k]) <= 1e-6:
             most, got = apart(right[k] / size, yours[k] / size)
-            told = f"joint {k + 1} exceeds its limits by up to {most}{unit}; yours says {got}{unit}"
+            told = f"joint {k + 1} exceeds its limits by up to {most}{unit}; you have {got}{unit}"
             return told.translate(MINUS)
     return None
 

@@ -26,7 +26,7 @@ def cases(rng: np.random.Generator) -> list[Case]:
         (40, 60, 300, 150, 60),
         (40, 60, 300, 150, -60),
         (-30, -50, 300, 150, 60),
-        (25, -np.degrees(np.arctan2(80, 200)), 250, 200, 80),  # stretched: its own mirror image
+        (25, -np.degrees(np.arctan2(80, 200)), 250, 200, 80),  # straight: its own mirror image
         (0, 140, 200, 260, 40),  # the angle inside the triangle is obtuse
         (20, -160, 200, 240, 50),
         (130, 100, 350, 100, 200),  # the camera is more beside the lever than along it
@@ -64,7 +64,7 @@ def law(case: Case, yours: Floats, right: Floats) -> str | None:
     if not np.linalg.norm(there - wanted) <= 1e-4:
         at, is_at = apart(wanted, there)
         return (
-            f"the camera should stay at ({at}) mm; with your joints it is at ({is_at}) mm"
+            f"the camera should be at ({at}) mm again; with your angles it is at ({is_at}) mm"
         ).translate(MINUS)
     if not abs(wrapped(yours[1] - right[1])) <= 1e-6:
         second = shown(float(wrapped(right[1])))

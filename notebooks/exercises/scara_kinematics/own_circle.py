@@ -114,23 +114,23 @@ def about_hole(hole: float, given: Given) -> Fault | None:
         return None
     named = (
         (1000 * right, "mm for m", f"The hole is {hole:g} m. {METRES}"),
-        (L2 - L1, "the hole of an arm that folds", "50 mm is left when the arm folds completely."),
+        (L2 - L1, "the hole of an arm that folds", "50 mm is right if the arm folds completely."),
         (
             distance(np.pi - stop),
             "the stop used as the angle inside the triangle",
-            "Joint 2 counts from the stretched arm: at your stop the angle inside the triangle is "
-            f"180° − {stop / deg:.0f}°.",
+            "Joint 2 is measured from the straight arm: at your stop, the angle inside the "
+            f"triangle is 180° − {stop / deg:.0f}°.",
         ),
         (
             distance(SCARA.limits[1, 1]),
             "the hole of the lab's arm",
-            f"The lab's joint 2 stops at ±150°, yours at ±{stop / deg:.0f}°.",
+            f"Joint 2 of the lab's arm stops at ±150°, yours at ±{stop / deg:.0f}°.",
         ),
     )
     for value, name, says in named:
         if abs(hole - value) <= CLOSE * value / right:
-            return name, f"{says} The hole has another radius."
-    says = f"At your stop of ±{stop / deg:.0f}° the tool is not {hole / mm:.1f} mm from joint 1."
+            return name, f"{says} Your hole has another radius."
+    says = f"At your stop of ±{stop / deg:.0f}°, the tool is not {hole / mm:.1f} mm from joint 1."
     return "another radius of the hole", says
 
 
@@ -141,9 +141,9 @@ def circle(design: Given, given: Given) -> list[Fault]:
         name = "mm for m" if abs(away) >= 60 else "cm for m"
         return [(name, f"The distance is {away:g} m. {METRES}")] * count
     if abs(angle) > 8 * np.pi:
-        return [("degrees for radians", f"An angle of {angle / deg:.0f}°. {DEGREES}")] * count
+        return [("degrees for radians", f"Your angle is {angle / deg:.0f}°. {DEGREES}")] * count
     if away < 0:
-        says = "A distance is not negative: your bearing already gives the direction."
+        says = "A distance cannot be negative: your bearing already gives the direction."
         return [("a negative distance", says)] * count
     targets = own_circle(given, away, angle)
     q = joints(design, given)
@@ -167,7 +167,7 @@ def joint_1(q: Floats, design: Given, given: Given) -> Fault | None:
     says = f"Joint 1 passes its limit of ±{limit:.0f}° by {apart(over / deg, 0)[0]}°."
     if past(joints({**design, "elbow": -design["elbow"]}, given), given)[0] > SLACK:
         return "past a limit: joint 1", says
-    says += " The other elbow reaches the same places with other angles of joint 1."
+    says += " With the other elbow, the arm reaches the same places with other angles of joint 1."
     return "the wrong elbow", says
 
 
@@ -176,17 +176,17 @@ def joint_2(q: Floats, nearest: float, farthest: float, given: Given) -> list[Fa
     if over > SLACK:
         limit, most = given["stop"] / deg, apart(over / deg, 0)[0]
         says = (
-            f"Joint 2 passes its limit of ±{limit:.0f}° by {most}°: the circle comes as close as "
-            f"{nearest:.1f} mm to joint 1, into the hole."
+            f"Joint 2 passes its limit of ±{limit:.0f}° by {most}°: the circle enters the hole, "
+            f"because it comes as close as {nearest:.1f} mm to joint 1."
         )
         found.append(("past a limit: joint 2", says))
     if bent < AWAY - SLACK:
         near, asked = apart(bent / deg, AWAY / deg)
         says = (
-            f"Joint 2 comes as close as {near}° to the stretched arm, and the task asks for "
-            f"{asked}°: the circle goes out to {farthest:.1f} mm."
+            f"Joint 2 comes within {near}° of 0°, where the arm is straight, but at least {asked}° "
+            f"is required: the circle goes out to {farthest:.1f} mm."
         )
-        found.append(("too close to the stretched arm", says))
+        found.append(("too close to the straight arm", says))
     return found
 
 
@@ -202,6 +202,6 @@ def joint_3(q: Floats, given: Given) -> Fault | None:
     for turns, name in ((1, "A whole turn"), (2, "Two whole turns")):
         moved = (q + [0, 0, 2 * np.pi * k, 0] for k in (-turns, turns))
         if any(past(each, given)[2] <= SLACK for each in moved):
-            says += f" {name} more or less at the start {'is' if turns == 1 else 'are'} the same "
-            return f"joint 3 starts {name.lower()} off", f"{says}pose, and fit{'s' * (turns == 1)}."
+            says += f" If it starts {name.lower()} further on or back, the pose is the same and "
+            return f"joint 3 starts {name.lower()} off", f"{says}joint 3 stays inside."
     return "past a limit: joint 3", says

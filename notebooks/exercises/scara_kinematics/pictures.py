@@ -36,7 +36,7 @@ def p2_view() -> str:
 
 
 def elbow_at(q1: float) -> Any:
-    """Where joint 2 is."""
+    """The position of joint 2."""
     return L1 * np.array([np.cos(q1), np.sin(q1)])
 
 

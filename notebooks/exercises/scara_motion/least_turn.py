@@ -23,15 +23,15 @@ def cases(rng: np.random.Generator) -> list[tuple[Any, ...]]:
         return np.array(q0) * [deg, deg, deg, mm], np.array(place) * mm, angle * deg
 
     found = [
-        case([0, 90, 0, 100], [200, 250, 120.2], 110),  # the arm stays, the tool turns by 20
+        case([0, 90, 0, 100], [200, 250, 120.2], 110),  # the arm stays still, the tool turns by 20
         case([0, 90, 0, 100], [200, 250, 120.2], -110),  # 160 to the left, through 180
-        case([0, 90, 0, 100], [200, 250, 120.2], 450),  # one turn further: it stays
+        case([0, 90, 0, 100], [200, 250, 120.2], 450),  # one turn further: it stays still
         case([0, 90, -90, 150], [200, 250, 70.2], -176),  # joint 4 is not an angle
         case([-100, 40, 0, 20], [-150, 300, 150.2], 150),  # joints 1 and 2 turn by 200
         case([120, -50, 30, 20], [-100, -300, 150.2], -80),
         case([30, 60, 80, 50], [300, 200, 170.2], -170),  # to the left through 180
         case([30, -60, -130, 50], [300, -200, 100.2], 170),  # to the right, with the other elbow
-        case([-90, 40, 0, 20], [100, 350, 150.2], 100),  # joints 1 and 2 turn much
+        case([-90, 40, 0, 20], [100, 350, 150.2], 100),  # joints 1 and 2 turn a lot
         case([-110, 60, 20, 20], [-150, 300, 150.2], 60),
         case([110, -60, -20, 20], [-150, -300, 150.2], -60),
         case([100, 60, 150, 0], [300, 150, 220.2], -20),  # from 310: 340 is nearer than -20
@@ -49,7 +49,7 @@ def cases(rng: np.random.Generator) -> list[tuple[Any, ...]]:
         case([30, -60, -130, 50], [300, -200, 100.2], 1250),
         case([0, 90, -90, 20], [200, 250, 50.2], 176),  # joint 4 moves by 150 mm, not by an angle
         case([0, 90, -90, 170], [200, 250, 200.2], -176),
-        case([0, 0, 90, 100], [200, 250, 120.2], 110),  # the arm is stretched: 0 is positive
+        case([0, 0, 90, 100], [200, 250, 120.2], 110),  # a straight arm: 0 is positive
         case([120, 0, -30, 50], [200, 250, 120.2], -110),  # the other elbow would be nearer
     ]
     while len(found) < 46:
@@ -58,12 +58,12 @@ def cases(rng: np.random.Generator) -> list[tuple[Any, ...]]:
         q0 = q0 * [deg, deg, deg, mm]
         q = np.array([*rng.uniform([-135, 25], [135, 140]).round(1) * deg, 0.0, 0.1])
         q[1] *= np.sign(q0[1])
-        if len(found) % 2:  # joints 1 and 2 turn much
+        if len(found) % 2:  # joints 1 and 2 turn a lot
             q[0], q0[2] = -np.sign(q0[0]) * abs(q[0]), q0[2] / 2
         place = SCARA.fk(q).translation.round(4)
         angle = round(rng.uniform(-400, 400), 1) * deg
         end = angle - same_elbow(q0, place, angle)[:2].sum()
-        # at half a turn both ways are short
+        # at half a turn, both directions are equally short
         clear = abs(abs(wrapped(angle - q0[:3].sum())) - np.pi) > 0.05
         if clear and (abs(wrapped(end - [LOW[2], HIGH[2]])) > 0.02).all():
             found.append((q0, place, angle))
@@ -100,16 +100,16 @@ def told(case: tuple[Any, ...], yours: Floats, wanted: Floats) -> str | None:
         )
     other = same_elbow(q0, position, angle, -1)
     if off[:2].any() and (abs(wrapped(yours[:2] - other[:2])) <= 1e-6).all():
-        counts = ", which counts as positive" if q0[1] == 0 else ""
+        counts = " (treated as positive)" if q0[1] == 0 else ""
         return (
-            f"the elbow has changed its side: joint 2 is at {q0[1] / deg:.1f}° in q0{counts}, "
-            f"and yours ends at {yours[1] / deg:.1f}°. It should end at {wanted[1] / deg:.1f}°, "
+            f"the elbow ends on the other side: joint 2 is at {q0[1] / deg:.1f}° in q0{counts} "
+            f"and at {yours[1] / deg:.1f}° at the end. It should end at {wanted[1] / deg:.1f}°, "
             f"and joint 1 at {wanted[0] / deg:.1f}°"
         )
     for k in (0, 1):
         if off[k]:
             at, is_at = apart(wanted[k] / deg, yours[k] / deg)
-            return f"joint {k + 1} should be at {at}° (with the elbow of q0), but is at {is_at}°"
+            return f"joint {k + 1} should be at {at}° (same elbow as in q0), but is at {is_at}°"
     if off[3]:
         at, is_at = apart(wanted[3] / mm, yours[3] / mm)
         return f"joint 4 should be at {at} mm, but is at {is_at} mm"
@@ -118,7 +118,7 @@ def told(case: tuple[Any, ...], yours: Floats, wanted: Floats) -> str | None:
     third, yours_third = apart(wanted[2] / deg, yours[2] / deg)
     return (
         f"the tool is at {now:.1f}°. It should turn by {turns}°, to {end:.1f}°, with joint 3 "
-        f"at {third}°. Yours turns it by {yours_turns}°, with joint 3 at {yours_third}°"
+        f"at {third}°. Your answer turns it by {yours_turns}°, with joint 3 at {yours_third}°"
     )
 
 

@@ -25,7 +25,7 @@ def ends(limits: Floats, lengths: Any) -> Floats:
 
 
 def cases(rng: np.random.Generator) -> list[Case]:
-    """Motions: limits reached, limits broken, NaN, at the first, a middle and the last sample."""
+    """Motions that reach or exceed limits, or have NaN, at the start, in the middle, at the end."""
     found = []
     for sheet in SHEETS:
         limits, lengths, still = (np.array(x) for x in sheet)
@@ -92,23 +92,21 @@ def law(case: Case, yours: bool, wanted: bool) -> str | None:
         return None
     low, high = ends(limits, lengths)
     if wanted:
-        says = (
-            "every value of this motion is inside its limits (the limits included): True is right"
-        )
+        says = "every value of this motion is inside or at its limits, so the answer is True"
         sample, joint = divmod(int(np.argmin(np.minimum(q - low, high - q))), 4)
         value = float(q[sample, joint])
         limit = float(min(low[joint], high[joint], key=lambda x: abs(x - value)))
         if abs(value - limit) > 1e-6:
             return says
         if value == limit:
-            return f"{says}; sample {sample} has joint {joint + 1} at its limit"
+            return f"{says}; in sample {sample}, joint {joint + 1} is at its limit"
         si = "m" if lengths[joint] else "rad"
-        at = f"sample {sample} has joint {joint + 1} at {value:.7f} {si}, its limit is {limit:.7f}"
-        return f"{says}; {at} {si}".translate(MINUS)
+        at = f"in sample {sample}, joint {joint + 1} is at {value:.7f} {si}"
+        return f"{says}; {at}, its limit is {limit:.7f} {si}".translate(MINUS)
     sample, joint = divmod(int(np.argmax(~((q >= low) & (q <= high)))), 4)
     where = f"sample {sample} of {len(q)} (counted from 0)"
     if np.isnan(q[sample, joint]):
-        return f"{where} is a row of NaN, out of reach: False is right"
+        return f"{where} is a row of NaN, out of reach, so the answer is False"
     si, size, unit = ("m", mm, " mm") if lengths[joint] else ("rad", deg, "°")
     value = q[sample, joint] / size
     limit, side = limits[joint][1], "above"
@@ -117,8 +115,8 @@ def law(case: Case, yours: bool, wanted: bool) -> str | None:
     excess = abs(value - limit)
     digits = 1 if excess > 0.05 else 4 if unit == "°" else 3
     return (
-        f"{where} has joint {joint + 1} at {value * size:.7f} {si}, {excess:.{digits}f}{unit} "
-        f"{side} its limit of {limit:.0f}{unit}: False is right"
+        f"in {where}, joint {joint + 1} is at {value * size:.7f} {si}, {excess:.{digits}f}{unit} "
+        f"{side} its limit of {limit:.0f}{unit}, so the answer is False"
     ).translate(MINUS)
 
 

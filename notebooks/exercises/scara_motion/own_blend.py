@@ -49,7 +49,7 @@ def lift(mine: Given) -> float:
 
 
 def gap(mine: Given, fraction: float) -> float:
-    """How near the path comes to via, m: positions and angles of the lab at individual heights."""
+    """How near the path comes to via, m: the lab's x, y and angles, the student's own heights."""
     start = ScaraPose([0.2, 0.3, mine["start_z"]], 0.0)
     via = ScaraPose([0.4, 0.1, mine["via_z"]], np.pi)
     goal = ScaraPose([0.2, -0.2, mine["goal_z"]], np.pi / 2)
@@ -67,7 +67,7 @@ def form(answer: Any, mine: Given) -> dict[str, float]:
 def faults(answer: Given, mine: Given) -> list[tuple[str, str]]:
     b, duration, most, found = answer["blend"], answer["duration"], mine["acceleration"], []
     if not 0 < b <= 0.5:
-        says = f"A blend is more than 0 (the sharp corner) and at most 0.5. Yours is {b:g}."
+        says = f"A blend must be greater than 0 (a sharp corner) and at most 0.5. Yours is {b:g}."
         return [("no such blend", says)] * COUNT
     if duration <= 0:
         return [("no such duration", f"A motion takes time. Yours takes {duration:g} s.")] * COUNT
@@ -75,20 +75,20 @@ def faults(answer: Given, mine: Given) -> list[tuple[str, str]]:
     if deepest > STROKE + 1e-9:  # joints 1 to 3 stay inside for every blend, see `given`
         says = (
             f"The stroke goes {apart((deepest - STROKE) / mm, 0, 2)[0]} mm past its limit of "
-            f"{STROKE / mm:.0f} mm. A larger blend lifts the tool."
+            f"{STROKE / mm:.0f} mm. A larger blend lifts the tool more."
         )
         found.append(("past the stroke's limit", says))
     passes = gap(mine, b)
     if passes > mine["miss"] * (1 + 1e-6):
         near, allowed = apart(passes / mm, mine["miss"] / mm)
-        says = f"The tool passes {near} mm from via, and at most {allowed} mm is allowed. "
+        says = f"The tool passes {near} mm from via; at most {allowed} mm is allowed. "
         found.append(("too far from via", says + "A smaller blend brings it closer."))
     a = sum(over_via(mine)) / (b * duration**2)  # in the parabola's corner, where it is constant
     shortest = float(np.sqrt(sum(over_via(mine)) / b / most))
     needs, allowed = apart(a / mm, most / mm, 2)
     told = (
         f"In {duration:g} s the stroke accelerates at {needs} mm/s² in the corner of your blend, "
-        f"and at most {allowed} mm/s² is allowed"
+        f"but at most {allowed} mm/s² is allowed"
     )
     fast, slow = a > most * 1.002, duration > 1.02 * shortest
     if fast or slow:
@@ -102,11 +102,11 @@ def faults(answer: Given, mine: Given) -> list[tuple[str, str]]:
 
 
 def slip(ratio: float, shortest: float) -> tuple[str, str] | None:
-    """The slip behind a duration that is a known multiple of the shortest one, or None."""
+    """The likely slip if the duration is a known multiple of the shortest one, else None."""
     unit = "mm instead of m", "Use the same unit of length for heights and acceleration."
-    whole = "The formula's T is the whole duration."
+    whole = "T in the formula is the duration of the whole motion."
     slips = {
-        shortest: ("the root is forgotten", "The formula gives T². You used it as the duration."),
+        shortest: ("the root is forgotten", "You used T² as the duration. Take the square root."),
         1000**0.5: unit,
         1000**-0.5: unit,
         0.5: ("half of the duration", whole),

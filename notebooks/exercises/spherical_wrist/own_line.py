@@ -68,8 +68,8 @@ def numbers_of(who: str) -> tuple[tuple[str, float], ...]:
 
 def given(who: Any) -> Numbers:
     """A line a few millimetres beside the singular pose, and the limits of the process. It can be
-    solved: the limits are drawn around the tilt perpendicular to the line, so that a tilt to one
-    side keeps them and no tilt to the other side does.
+    solved: the limits are derived from the tilt perpendicular to the line, so that a tilt to one
+    side satisfies them and no tilt to the other side does.
     """
     return Numbers(dict(numbers_of(str(who))), UNITS)
 
@@ -96,37 +96,37 @@ def form(answer: Any, given: Given) -> dict[str, float]:
 
 
 def keeps(given: Given, up: float, side: float) -> bool:
-    """Whether this tilt is not too large and keeps the distance."""
+    """Whether this tilt is small enough and keeps the arm far enough from a singularity."""
     if max(abs(up), abs(side)) > 2 * given["most_tilt"]:
         return False
     return bool(passage(given, up, side)[0] >= given["least_distance"])
 
 
 def too_near(given: Given, up: float, side: float, tilt: float, least: float) -> Fault:
-    """The fault of a tilt that does not keep the distance."""
+    """The fault of a tilt with which the arm comes too near a singularity."""
     is_at, wanted = apart(least, given["least_distance"], 4)
     across_it = abs(np.dot(across(given["slope"], 1.0)[0], (up, side)))
     line = (
         f"The smallest distance from a singularity on your line is {is_at}; it must be at least "
-        f"{wanted}. You tilt the tool by {tilt / deg:.2f}° of the {given['most_tilt'] / deg:.0f}° "
-        f"that are allowed, and the part perpendicular to the line is {across_it / deg:.2f}°."
+        f"{wanted}. You tilt the tool by {tilt / deg:.2f}° ({given['most_tilt'] / deg:.0f}° are "
+        f"allowed). The component perpendicular to the line is {across_it / deg:.2f}°."
     )
     if keeps(given, up / deg, side / deg):
-        return "deg twice", f"{line} If you divide both tilts by deg once more, they are right."
+        return "deg twice", f"{line} You multiplied by deg twice: divide both tilts by deg."
     if tilt > 0.5 * given["most_tilt"] and across_it < 0.5 * tilt:
-        line += " The part along the line makes the forearm pass the tool's direction a little "
-        line += "earlier or later. Only the part perpendicular to the line keeps them apart."
+        line += " Because of the component along the line, the forearm passes the tool's direction "
+        line += "a little earlier or later. Only the perpendicular component keeps them apart."
         return "tilted along the line", line
     if max(abs(up), abs(side)) < 1e-3:
         return "not tilted", line
     other = passage(given, -up, -side)[0]
     if other >= given["least_distance"]:
-        line += f" With the same tilt to the other side it would be {other:.4f}."
+        line += f" With the same tilt to the other side, it would be {other:.4f}."
         if keeps(given, side, up):
-            line += " With up and side exchanged it would be right, too."
+            line += " With up and side exchanged, it would also be right."
         return "tilted to the wrong side", line
     if keeps(given, side, up):
-        line += f" With the two exchanged it would be {passage(given, side, up)[0]:.4f}."
+        line += f" With up and side exchanged, it would be {passage(given, side, up)[0]:.4f}."
         return "up and side exchanged", line
     return "too near the singularity", line
 
@@ -144,7 +144,7 @@ def faults(answer: dict[str, float], given: Given) -> list[Fault]:
     least, fastest = passage(given, up, side)
     if np.isnan(least):
         says = "Part of the line is out of reach: the wrist centre is too far away. Tilt the tool "
-        says += "less, or in another direction."
+        says += "less or in another direction."
         return [*found, ("out of reach", says)] + [("out of reach", "")] * 2
     if least < given["least_distance"] - 1e-9:
         found.append(too_near(given, up, side, tilt, least))

@@ -105,7 +105,7 @@ def form(result: Any, case: tuple[Any, ...]) -> Axes:
 
 
 def law(case: tuple[Any, ...], yours: Axes, wanted: Axes) -> str | None:
-    """Say which axis is the first wrong one."""
+    """A message about the first wrong axis."""
     points, ways, n = wanted.points, wanted.ways, len(wanted.points)
     if len(yours.rows) != n:
         return f"wanted points and directions of {n} joints, got {len(yours.rows)} of each"
@@ -120,8 +120,8 @@ def law(case: tuple[Any, ...], yours: Axes, wanted: Axes) -> str | None:
         off = float(np.linalg.norm(yours.rows[i, 3:] - np.cross(point, way)))
         if not off <= 1e-6:
             return (
-                f"the axis of joint {i + 1} should go through ({place}) mm along ({along}); yours "
-                f"misses this point by {apart(off / mm, 0)[0]} mm"
+                f"the axis of joint {i + 1} should go through ({place}) mm along ({along}); your "
+                f"axis passes this point at a distance of {apart(off / mm, 0)[0]} mm"
             )
     return None
 

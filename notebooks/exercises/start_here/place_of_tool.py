@@ -28,7 +28,7 @@ def faults(q: Any, given: Any) -> list[Fault]:
         return [("degrees for radians", DEGREES)]
     found = missed(q)
     if found and (abs(q / deg) <= abs(IRB140.limits).max()).all() and not missed(q / deg):
-        return [("`deg` twice", "These are the right angles, multiplied by `deg` twice.")]
+        return [("`deg` twice", "The angles are right, but you multiplied them by `deg` twice.")]
     return found
 
 
@@ -38,7 +38,7 @@ def missed(q: Any) -> list[Fault]:
     for k, (angle, (low, high)) in enumerate(zip(q, IRB140.limits, strict=True), 1):
         if not low <= angle <= high:
             says = (
-                f"Joint {k} is at {angle / deg:.0f}°, and its limits are {low / deg:.0f}° and "
+                f"Joint {k} is at {angle / deg:.0f}°, but its limits are {low / deg:.0f}° and "
                 f"{high / deg:.0f}°."
             )
             found.append(("past a limit", minus(says)))
@@ -52,9 +52,9 @@ def missed(q: Any) -> list[Fault]:
         found.append((name, says))
     if x <= 0 or abs(x - y) > NEAR:
         name = "x and y differ"
-        says = f"x is {x:.0f} mm and y is {y:.0f} mm; they should be equal and positive."
+        says = f"x is {x:.0f} mm and y is {y:.0f} mm, but they should be equal and positive."
         if x > 0 and abs(x + y) <= NEAR:
-            name, says = "right for left", f"{says} On the left, y is positive."
+            name, says = "right instead of left", f"{says} On the left, y is positive."
         elif abs(x - y) <= NEAR:
             name = "behind the arm"
         found.append((name, minus(says)))

@@ -59,7 +59,7 @@ def p3_view() -> Any:
     family = ARM.family(K, alphas) / deg
     fig, (left, right) = panels(
         "Left: nine postures of the family, the symmetric one in bold. Right: beta falls and "
-        "gamma grows with alpha; beta and alpha are equal at one place.",
+        "gamma grows with alpha; beta and alpha are equal at one point.",
         count=2,
         height=3.7,
         width_ratios=[1, 1.15],
@@ -76,7 +76,7 @@ def p3_view() -> Any:
         joints=range(3),
         xlabel="free angle α, °",
         ylabel="γ, β, α, °",
-        title="β = α at one place",
+        title="β = α at one point",
     )
     right.plot(same, same, "o", color=INK, markersize=7)
     right.annotate(f"{same:.1f}°", (same, same), (12, -3), textcoords="offset points")
@@ -123,7 +123,7 @@ def p6_view() -> Any:
     fig, ax = panels(
         "The changes of gamma, beta and alpha and their sum S against alpha, near the least S. "
         "Each change is a V that touches 0 where this angle stays; S has its least value at one "
-        "of these places.",
+        "of these points.",
         height=3.7,
     )
     stays = "γβα"[int(np.argmin(abs(exact - before)))]

@@ -111,7 +111,7 @@ def faults(alphas: Any, given: Given) -> list[Fault]:
         return [("deg twice", f"Your alphas are {told}; an alpha of 120° is 120 * deg.")] * COUNT
     found = of_a_plan(alphas, given)
     if found and not of_a_plan(alphas[::-1], given):
-        says = "Swap your two alphas, and the plan works: the first belongs to the first target."
+        says = "Swap your two alphas, and the plan works: the first alpha is for the first target."
         found.insert(0, ("the two alphas exchanged", says))
     return found
 
@@ -143,7 +143,7 @@ def out_of_range(name: str, target: Any, alpha: float) -> str:
     low, high = (float(x) / deg for x in ARM.alpha_range(target, limited=False))
     is_at, edge = apart(alpha, low if alpha < low else high, 2)
     ends = f"{edge}° to {high:.2f}°" if alpha < low else f"{low:.2f}° to {edge}°"
-    return f"No posture reaches the {name} target with alpha = {is_at}°: it goes from {ends}."
+    return f"No posture reaches the {name} target with alpha = {is_at}°: alpha can go from {ends}."
 
 
 def beyond(one: Any, two: Any, postures: Any, given: Given) -> list[Fault]:

@@ -141,19 +141,19 @@ WAY = "dx = x3 − base_x and dy = y3 − base_y"
 # a sentence, then the mistakes to which it applies, each with the lines that replace correct ones
 KNOWN = """
 xr, yr are the elbow on the right, seen from the base towards the tip.
-  the sides exchanged: xr = px - u; yr = py + v; xl = px + u; yl = py - v
+  the sides swapped: xr = px - u; yr = py + v; xl = px + u; yl = py - v
 xr is the x of the right elbow.
-  x and y exchanged: xr = py - v; yr = px + u; xl = py + v; yl = px - u
+  x and y swapped: xr = py - v; yr = px + u; xl = py + v; yl = px - u
 Both pairs are the right elbow: change the sign of h.
   one elbow twice: xl = px + u; yl = py - v
 Both pairs are the left elbow: change the sign of h.
   one elbow twice: xr = px - u; yr = py + v
-Your base is not the origin.
-  the base taken for the origin: dx = x3; dy = y3; px = a*dx; py = a*dy
+Your base is not at the origin.
+  the base left out: dx = x3; dy = y3; px = a*dx; py = a*dy
 Your elbows are relative to your base: add it.
   the base not added at the end: px = a*dx; py = a*dy
-l1 is the link on the base.
-  the links exchanged: K = (l2**2 - l1**2) / 2; L = l2**2
+l1 is the length of the link on the base.
+  the links swapped: K = (l2**2 - l1**2) / 2; L = l2**2
 Your links have different lengths, so a is not 1/2.
   equal links assumed: a = 0.5
 This is the arm of the lab. Use your own base and lengths.
@@ -169,7 +169,7 @@ SLIPS = f"""
   the square of the difference in K: K = (l1 - l2)**2 / 2
   only l2² halved in K: K = l1**2 - l2**2 / 2
   0.5 left out of a: a = K / d2
-  1 for 0.5 in a: a = 1 + K / d2
+  1 instead of 0.5 in a: a = 1 + K / d2
   0.5 divided by d2, too: a = (0.5 + K) / d2
   K not divided by d2: a = 0.5 + K
   K times d2: a = 0.5 + K * d2
@@ -177,27 +177,27 @@ SLIPS = f"""
   a minus in a: a = K / d2 - 0.5
 {HEIGHT}
   a not squared: h = sqrt(L / d2 - a)
-  2 a for a²: h = sqrt(L / d2 - 2*a)
-  plus for minus under the root: h = sqrt(L / d2 + a*a)
+  2 a instead of a²: h = sqrt(L / d2 - 2*a)
+  plus instead of minus under the root: h = sqrt(L / d2 + a*a)
   a² − l1² / d2 under the root: h = sqrt(a*a - L / d2)
   the root left out: h = L / d2 - a*a
   l1² not divided by d2: h = sqrt(L - a*a)
   a² divided by d2, too: h = sqrt((L - a*a) / d2)
   l1² times d2: h = sqrt(L * d2 - a*a)
-  l1 for l1²: L = l1
-  l2² for l1²: L = l2**2
-This h is a length, and it multiplies dx and dy: divide it by d. {HEIGHT}
+  l1 instead of l1²: L = l1
+  l2² instead of l1²: L = l2**2
+Your h is a length, but it multiplies dx and dy: divide it by d. {HEIGHT}
   h in metres: h = sqrt(L - a*a*d2)
 {HEIGHT}
   h halved: h = sqrt(L / d2 - a*a) / 2
   h twice: h = sqrt(L / d2 - a*a) * 2
-  d for d2: d2 = sqrt(dx*dx + dy*dy)
-  minus for plus in d2: d2 = dx*dx - dy*dy
-  the square of the sum for d2: d2 = (dx + dy)**2
+  d instead of d2: d2 = sqrt(dx*dx + dy*dy)
+  minus instead of plus in d2: d2 = dx*dx - dy*dy
+  the square of the sum instead of d2: d2 = (dx + dy)**2
   dx twice in d2: d2 = 2*dx*dx
   dy twice in d2: d2 = 2*dy*dy
-{WAY}: the direction is from the base to the tip.
-  the way from the tip to the base: dx = base_x - x3; dy = base_y - y3
+{WAY}: the direction goes from the base to the tip.
+  the direction from tip to base: dx = base_x - x3; dy = base_y - y3
 {WAY}. Subtract the base even if it is negative.
   the base added to the tip: dx = x3 + base_x; dy = y3 + base_y
 dx = x3 − base_x: subtract the base even if it is negative.
@@ -211,18 +211,18 @@ dx = x3 − base_x.
 dy = y3 − base_y.
   the base left out of dy: dy = y3
 {WAY}.
-  base_x and base_y exchanged: dx = x3 - base_y; dy = y3 - base_x
+  base_x and base_y swapped: dx = x3 - base_y; dy = y3 - base_x
 px = base_x + a dx and py = base_y + a dy: go from the base along the line to the tip.
-  1/2 for a in the foot: px = base_x + dx / 2; py = base_y + dy / 2
+  1/2 instead of a in the foot: px = base_x + dx / 2; py = base_y + dy / 2
   no a in the foot: px = base_x + dx; py = base_y + dy
-  the foot counted from the tip: px = x3 + a*dx; py = y3 + a*dy
+  the foot measured from the tip: px = x3 + a*dx; py = y3 + a*dy
   the foot on the other side of the base: px = base_x - a*dx; py = base_y - a*dy
-  dx and dy exchanged in the foot: px = base_x + a*dy; py = base_y + a*dx
-  dx for dy in the foot: py = base_y + a*dx
+  dx and dy swapped in the foot: px = base_x + a*dy; py = base_y + a*dx
+  dx instead of dy in the foot: py = base_y + a*dx
 The direction across is (dy, −dx): xr = px + h dy, yr = py − h dx; on the left the signs change.
-  aside along the way: u = h*dx; v = h*dy
-  aside without the way: u = h; v = h
-  both signs alike: yr = py + v; yl = py - v
+  along instead of across: u = h*dx; v = h*dy
+  across without a direction: u = h; v = h
+  a sign of the direction across: yr = py + v; yl = py - v
   the sign in xl: xl = px + u
   the sign in yl: yl = py - v
   the sign in xr: xr = px - u
@@ -280,7 +280,7 @@ def faults(program: str, given: Any) -> list[tuple[str, str]]:
             at, is_at = apart(right[n, k : k + 2], found[n, k : k + 2], 3)
             says = (
                 f"For the tip ({tips[n, 0]:.4g}, {tips[n, 1]:.4g}) the {name} elbow is at ({at}); "
-                f"your program says ({is_at})."
+                f"your program returns ({is_at})."
             )
             why = f"{named[1]} " if named and not faults else ""
             faults.append((named[0] if named else f"another {name} elbow", why + says))

@@ -112,9 +112,10 @@ def scores(task: str, points: Floats, numbers: Any) -> str:
     greedy, best = both(task, points, numbers)
     a, b, (first, most) = len(greedy), len(best), worths(numbers, greedy, best)
     told = {
-        "visit": f"nearest first visits {a} of 4 (order {greedy}), the best order {b} ({best}).",
-        "collect": f"cheapest first brings {a} of 4 ({greedy}), the best choice {b}.",
-        "worth": f"cheapest first brings {greedy}, worth {first}; the best choice {best}, worth "
+        "visit": f"nearest first visits {a} of 4 (order {greedy}), and the best order visits {b} "
+        f"({best}).",
+        "collect": f"cheapest first brings {a} of 4 ({greedy}), and the best choice brings {b}.",
+        "worth": f"cheapest first brings {greedy}, worth {first}; the best choice is {best}, worth "
         f"{most}.",
     }
     return f'"{task}": {told[task]}'
@@ -137,7 +138,7 @@ def trap_fault(task: str, points: Floats | None, numbers: Any) -> Fault | None:
     """The fault of the answer for one task; None: it is correct."""
     if points is None:
         says = f'"{task}": there is a trap. {GIVEN_UP.get(task)}'
-        return ("given up, where there is a trap", says) if task in GIVEN_UP else None
+        return ("given up, although there is a trap", says) if task in GIVEN_UP else None
     fault = places_fault(task, points, numbers)
     if task == "collect":
         says = '"collect": look at the proof of section 2 before you build.'
@@ -146,7 +147,7 @@ def trap_fault(task: str, points: Floats | None, numbers: Any) -> Fault | None:
                 f"{scores(task, points, numbers)} No four points change that: any k objects cost "
                 "at least as much as the k cheapest (section 2)."
             )
-        return "a trap against a proof", says
+        return "a trap that cannot exist", says
     return fault or not_beaten(task, points, numbers)
 
 

@@ -31,8 +31,8 @@ def p1_view() -> Any:
 
 def p2_view() -> Any:
     q3 = p2()["q3"]
-    says = f"The stretched arm, flat: link 2 is {abs(q3):.0f} degrees above its place at q3 = 0."
-    title = f"Stretched: link 2 is {abs(q3):.0f}° above its place at q3 = 0"
+    says = f"The stretched arm, flat: link 2 is {abs(q3):.0f} degrees above its position at q3 = 0."
+    title = f"Stretched: link 2 is {abs(q3):.0f}° above its position at q3 = 0"
     sketch = Sketch(says, title=title, height=3.6, **SIDE)
     sketch.levers([(0, 0), (L1, 0), (L1 + L2, 0)], ["O1", "", "tool"])
     sketch.ax.text(L1, 0.25, "O2", ha="center", fontsize=12)

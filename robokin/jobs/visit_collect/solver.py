@@ -1,6 +1,6 @@
 """Solutions of a task: the points that the arm visits or collects, their order and their times."""
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass
 from typing import Any
 
@@ -174,6 +174,33 @@ def stops_of(task: Task, result: Result) -> Floats:
     for i in result.order:
         stops += [i + 1, 0] if task.kind == "collect" else [i + 1]
     return _settled(task.q[stops])
+
+
+def candidates(task: Task, result: Result) -> Iterator[tuple[str, Ints, Floats]]:
+    """All moves that the method compared, stop by stop, as the document's program logs them: the
+    name of the place where the arm stands, the indices (m,) of the points that are left, and the
+    times t1, t2, t3 (m, 3) in s that the joints need to go there. The last stop is the one at which
+    no point fits within T. A joint that is free at the start needs no time.
+
+    In "collect" every move starts at p0, so one stop has all of them, unless p0 is on axis 1: there
+    joint 1 keeps a different value after each point.
+    """
+    stops_of(task, result)  # checks that they belong together
+    here, p0, left = task.q[0], task.q[0], np.arange(len(task.points))
+    collects, once = task.kind == "collect", not np.isnan(task.q[0]).any()
+    name = "p0"
+    for chosen in (*result.order, None):
+        if not len(left):
+            return
+        with np.errstate(over="ignore"):
+            times = abs(with_free_joints(task.q[1 + left], here) - here) / task.speeds
+        yield name, left, np.nan_to_num(times, nan=0.0, posinf=np.inf)
+        if chosen is None or (collects and once):
+            return
+        there = with_free_joints(task.q[1 + chosen], here)
+        here = with_free_joints(p0, there) if collects else there
+        name = "p0" if collects else f"pi[{chosen}]"
+        left = left[left != chosen]
 
 
 @np.errstate(over="ignore")
