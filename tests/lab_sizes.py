@@ -106,9 +106,10 @@ def folded(cell) -> bool:
 
 
 def words(text: str) -> list[str]:
-    """The words of a text, including those in tables, but without formulas and addresses."""
+    """The words of a text and its tables, but not those in formulas, addresses and comments."""
     text = re.sub(r"\$\$.*?\$\$|\$[^$]+\$", " ", text, flags=re.S)
     text = re.sub(r"\]\([^)]*\)", "] ", text)
+    text = re.sub(r"<!--.*?-->", " ", text, flags=re.S)
     return re.findall(r"\w[\w'’.-]*", text)
 
 

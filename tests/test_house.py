@@ -153,6 +153,7 @@ def test_ci_runs_the_test_command_of_the_readme():
     script = (ROOT / ".ci" / "run").read_text()
     assert "grep '^python3 -m venv .*pytest$' README.md" in script and 'eval "$command"' in script
     assert "pip install" not in script
+    assert script.endswith('\neval "$command"\n.venv/bin/python tests/page_python.py\n')
     windows = [
         line
         for line in README.splitlines()

@@ -10,16 +10,18 @@ import shutil
 import subprocess
 import sys
 from html.parser import HTMLParser
+from types import SimpleNamespace
 from urllib.parse import unquote, urlsplit
 
 import pytest
 from axe_playwright_python.sync_playwright import Axe
-from conftest import NOTEBOOKS, awake, until
+from conftest import NOTEBOOKS, REPOSITORY, awake, until
 from test_browser import NEXT_FRAME, PLAYER, _opens, _seen, _settled
 from test_export import FETCHED, formulas
 
 from robokin.course import site as making
 from robokin.course.__main__ import main
+from robokin.course.site import conf
 
 PATHS = [*sorted(NOTEBOOKS.glob("*.ipynb")), *sorted(NOTEBOOKS.glob("documents/*.ipynb"))]
 NAMES = [path.relative_to(NOTEBOOKS).with_suffix("").as_posix() for path in PATHS]
@@ -138,6 +140,42 @@ def test_a_notebook_is_on_its_page_and_can_be_downloaded(path, site, parsed):
     assert set(code) <= set(page.text.split())
     assert path.name in page.links
     assert (site / f"{name}.ipynb").read_bytes() == path.read_bytes()
+
+
+def test_every_page_names_the_repository(parsed):
+    for name, page in parsed.items():
+        assert page.links.count(REPOSITORY) == 1, name
+
+
+NOT_HERE = "Run All|Trust Notebook|Ctrl\\+|Esc, then|in a terminal|on the site:"
+
+
+def test_pages_do_not_tell_the_reader_to_use_jupyterlab_commands(parsed):
+    start = (NOTEBOOKS / "00_start_here.ipynb").read_text(encoding="utf-8")
+    assert {*re.findall(NOT_HERE, start)} == {*NOT_HERE.replace("\\", "").split("|")}
+    for name, page in parsed.items():
+        assert not re.search(f".{{0,60}}({NOT_HERE})", page.text), name
+
+
+@pytest.mark.parametrize(
+    "text, there",
+    [
+        ("a\nb\n<!-- on the site: c d -->\ne", "a\nc d\ne"),
+        ("a\nb\n<!-- on the site: -->\ne", "a\ne"),
+        ("a\n<!-- on the site: c -->", "c"),
+        ("- a\n  <!-- on the site: - b -->\n- c", "- b\n- c"),
+        ("a\n```sh\nb\n\nc\n```\n<!-- on the site: -->\nd", "a\nd"),
+        ("```sh\na\n```\nb\n<!-- on the site: c -->", "```sh\na\n```\nc"),
+        ("a\n<!-- b -->\nc", "a\n<!-- b -->\nc"),
+    ],
+)
+def test_a_notebook_has_other_words_on_the_site(text, there):
+    cells = [{"cell_type": kind, "source": text.splitlines(True)} for kind in ("markdown", "code")]
+    source = [json.dumps({"cells": cells})]
+    app = SimpleNamespace(env=SimpleNamespace(doc2path=lambda name: f"{name}.ipynb"))
+    conf._in_other_words(app, "lab", source)
+    words, code = ("".join(cell["source"]) for cell in json.loads(source[0])["cells"])
+    assert words == there and code == text
 
 
 def test_pictures_have_alt_text_and_headings_are_ordered(parsed):
@@ -327,9 +365,9 @@ def test_the_notes_for_teachers_can_be_left_out(tmp_path, monkeypatch):
     assert "teaching.ipynb" not in words and "documents/teaching" not in words
     asked = []
     monkeypatch.setattr(making, "build", lambda *given: asked.append(given) or "")
-    for more in ([], ["--no-teaching"]):
+    for more in ([], ["--no-teaching"], ["--repository", REPOSITORY]):
         assert main(["site", str(tmp_path), *more]) == 0
-    assert asked == [(tmp_path, True), (tmp_path, False)]
+    assert asked == [(tmp_path, True, ""), (tmp_path, False, ""), (tmp_path, True, REPOSITORY)]
 
 
 def test_the_answers_to_the_oral_questions_are_folded(page, address):
@@ -351,6 +389,24 @@ def test_other_files_are_kept(tmp_path):
     file = tmp_path / "mine.txt"
     with pytest.raises(ValueError, match="nothing was overwritten"):
         making._older(file)
+
+
+@pytest.mark.parametrize(
+    "address",
+    [
+        "http://example.org/robokin",
+        "https://example.org",
+        "example.org/robokin",
+        "https://me:secret@example.org/robokin",
+        'https://example.org/"onclick="',
+        "https://example.org/robokin\n",
+        "https://example.org/robokin?a=1",
+    ],
+)
+def test_an_address_that_is_not_a_repository_is_refused(address, tmp_path):
+    with pytest.raises(ValueError, match="repository: wanted an address such as https.*, got"):
+        making.build(tmp_path / "site", repository=address)
+    assert not (tmp_path / "site").exists()
 
 
 def laid(folder, **files):
@@ -468,3 +524,5 @@ def test_unreadable_formulas_and_broken_links_are_reported(tmp_path):
     page = Parsed((tmp_path / "made" / "index.html").read_text(encoding="utf-8"))
     assert back in page.ids, "wanted the same anchor as in JupyterLab"
     assert "here" in page.text and "nonsense" not in page.text
+    assert "index.ipynb" in page.links and "" not in page.links
+    assert "needs robokin" not in page.text, "the site was built without an address"

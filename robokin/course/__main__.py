@@ -101,7 +101,7 @@ def _copy_arguments(command: Callable[..., argparse.ArgumentParser]) -> None:
 def _site_arguments(command: Callable[..., argparse.ArgumentParser]) -> None:
     site = command(
         _site,
-        "write all labs and the package reference as pages that work without Python",
+        "write all labs and the package reference as pages, which run Python themselves",
         "Write a website into FOLDER: the labs, companions, glossary, notes for teachers, package "
         "reference and a search page. Open its index.html, or put the folder on any web server.",
         extra="site",
@@ -114,6 +114,13 @@ def _site_arguments(command: Callable[..., argparse.ArgumentParser]) -> None:
         dest="teaching",
         action="store_false",
         help="leave out the notes for teachers, which contain the answers to the oral questions",
+    )
+    site.add_argument(
+        "--repository",
+        metavar="URL",
+        default="",
+        help="the https address of the repository, which every page then names as the place to "
+        "get robokin (default: no page does)",
     )
 
 
@@ -218,9 +225,9 @@ def _summary(options: Any) -> int:
 def _site(options: Any) -> int:
     from .site import build
 
-    print("Building the site; this takes half a minute.", flush=True)
+    print("Building the site; this takes about a minute.", flush=True)
     try:
-        complaints = build(options.folder, options.teaching)
+        complaints = build(options.folder, options.teaching, options.repository)
     except (OSError, ValueError) as error:
         print(error, file=sys.stderr)
         return 1

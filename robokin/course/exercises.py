@@ -138,4 +138,5 @@ def in_words(value: Any) -> str:
 
 
 def _row(values: Any) -> str:
-    return ", ".join(f"{x:.5g}" for x in np.asarray(values) + 0.0)
+    # without the rounding error of a zero, which differs from machine to machine
+    return ", ".join(f"{x:.5g}" for x in np.round(values, 12) + 0.0)

@@ -82,7 +82,7 @@ def law(case: Case, yours: Floats, wanted: Floats) -> str | None:
     if not np.allclose(place(yours), place(wanted), rtol=0, atol=1e-6):
         at, is_at = apart(place(wanted) / mm, place(yours) / mm)
         return f"{row}the part should be at ({at}) mm, seen from the flange, but is at ({is_at}) mm"
-    k = int(abs(turn(yours) - turn(wanted)).max(axis=0).argmax())
+    k = int(abs(turn(yours) - turn(wanted)).max(axis=0).round(9).argmax())  # the first if equal
     axis, is_axis = apart(wanted[:3, k], yours[:3, k], 3)
     name = "xyz"[k]
     told = f"the part's {name} axis should be ({axis}), but is ({is_axis})"

@@ -26,16 +26,21 @@ from . import files
 HERE = Path(__file__).parent
 TEACHING = "teaching.ipynb"
 NOTES = "documents/teaching"  # the link to the notes; its line in index.md is removed with them
+REPOSITORY = re.compile(r"https://[a-z0-9.-]+(:[0-9]+)?(/[a-z0-9._~-]+)+/?", re.I)
 MARK = ".robokin-site"  # a file in the site's folder that lists all files written there
 
 
-def build(folder: Path, teaching: bool = True) -> str:
+def build(folder: Path, teaching: bool = True, repository: str = "") -> str:
     """Write the site into `folder`, with or without the notes for teachers, and return Sphinx's
-    warnings.
+    warnings. If `repository` is the address of robokin's repository, every page names it.
 
-    Raises ValueError, and writes nothing, if there are no labs, Sphinx is not installed or fails,
-    the files of Python cannot be fetched, or a file that is not part of a site is in the way.
+    Raises ValueError, and writes nothing, if the address is not one, there are no labs, Sphinx is
+    not installed or fails, the files of Python cannot be fetched, or a file that is not part of a
+    site is in the way.
     """
+    if repository and not REPOSITORY.fullmatch(repository):
+        wanted = "an address such as https://example.org/group/robokin"
+        raise ValueError(f"repository: wanted {wanted}, got {repository!r}")
     missing = [name for name in ("sphinx", "myst_nb", "furo") if find_spec(name) is None]
     if missing:
         install = "pip install '.[site]' at the top of a clone of robokin"
@@ -52,7 +57,7 @@ def build(folder: Path, teaching: bool = True) -> str:
         sizes = files.assets(python := source.with_name("python"))
         version = _version(python)
         _write(source / "sizes.json", json.dumps({"version": version, "sizes": sizes}))
-        complaints = _run(source, made)
+        complaints = _run(source, made, repository)
         shutil.move(python, made / "python")
         for notebook in notebooks:  # the notebook to download, next to its page
             shutil.copyfile(notebook, made / notebook.relative_to(labs))
@@ -145,9 +150,10 @@ def _write(path: Path, text: str) -> None:
 # --- Running Sphinx, and installing its pages -----------------------------------------------------
 
 
-def _run(source: Path, made: Path) -> str:
+def _run(source: Path, made: Path, repository: str = "") -> str:
     """Run Sphinx and return its warnings. Raises ValueError if it fails."""
-    flags = ("-q", "-j", "auto", "-d", str(source.with_name("read")))
+    flags = ["-q", "-j", "auto", "-d", str(source.with_name("read"))]
+    flags += ["-A", f"repository={repository}"]  # for page.html
     paths = (str(HERE.parents[2]), os.environ.get("PYTHONPATH", ""))
     run = subprocess.run(
         [sys.executable, "-m", "sphinx", *flags, str(source), str(made)],

@@ -57,6 +57,7 @@ SIZES = "sizes.json"  # next to this file: the sizes of the files in python/, by
 
 def setup(app: Any) -> dict[str, bool]:
     app.add_html_math_renderer("mathml", (_inline, None), (_block, None))
+    app.connect("source-read", _in_other_words)
     app.connect("source-read", _own_name)
     app.connect("doctree-read", _numbered)
     app.connect("doctree-resolved", _to_the_section)
@@ -87,6 +88,29 @@ def _formula(translator: Any, node: nodes.Element, block: bool) -> None:
     except ValueError as error:
         logging.getLogger(__name__).warning(str(error), location=node)
     raise nodes.SkipNode
+
+
+# --- Words of a notebook that are different on the site -------------------------------------------
+
+# A line or program, and the comment below it with its words on the site (removed if there are none)
+OTHER_WORDS = re.compile(
+    r"^(?:```\w*\n(?:(?!```).*\n)*```|.*)\n *<!-- on the site:(.*?)-->(\n|\Z)", re.M
+)
+
+
+def _in_other_words(app: Any, docname: str, source: list[str]) -> None:
+    if not str(app.env.doc2path(docname)).endswith(".ipynb"):
+        return
+    notebook = json.loads(source[0])
+    for cell in notebook["cells"]:
+        if cell["cell_type"] == "markdown":
+            cell["source"] = OTHER_WORDS.sub(_replaced, "".join(cell["source"]))
+    source[0] = json.dumps(notebook, ensure_ascii=False)
+
+
+def _replaced(found: re.Match[str]) -> str:
+    words = found[1].strip()
+    return words + found[2] if words else ""
 
 
 # --- Links to sections: "[02 §3](02_irb140_kinematics.ipynb)" -------------------------------------
