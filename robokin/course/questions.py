@@ -59,17 +59,17 @@ class Prediction:
 def filled(prediction: Prediction) -> tuple[str, list[Option], int]:
     """The question, the options and the index of the right one, with all facts filled in."""
     facts = prediction.facts()
-
-    def fill(text: str) -> str:
-        """Fill in the facts. A line of the file may end inside a name, as inside a sentence."""
-        whole = re.sub(r"{[^{}]*}", lambda name: " ".join(name[0].split()), text)
-        return whole.format(**facts)
-
     options = [
-        Option(fill(each.text), fill(each.reason), each.confusion, fill(each.second), each.name)
+        Option(
+            each.text.format(**facts),
+            each.reason.format(**facts),
+            each.confusion,
+            each.second.format(**facts),
+            each.name,
+        )
         for each in prediction.options
     ]
-    return fill(prediction.question), options, prediction.right(facts)
+    return prediction.question.format(**facts), options, prediction.right(facts)
 
 
 def chosen_option(
@@ -143,7 +143,7 @@ def prediction(
     def facts() -> Mapping[str, Any]:
         found: Mapping[str, Any] = code[number]()
         try:
-            text.format(**found)
+            one_line(text).format(**found)  # a line may end inside the name of a fact
         except Exception as error:
             raise BadFile(file, line, f"{number} cannot be filled: {why(error)}") from None
         if found.get("right") not in names:
