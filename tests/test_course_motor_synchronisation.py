@@ -92,7 +92,7 @@ def test_correct_postures_pass_in_every_style(answer):
         (posture(lambda x, y, b: b + short(math.atan2(y, x) - b)), "on the axis"),
         (only_calls, "the shoulder is left out"),
         (posture(lambda x, y, b: right(x, y, b) % TURN), "alpha from 0° to 360°"),
-        (posture(lambda x, y, b: 0 if x == y == 0 else right(x, y, b) - b), "the turn for"),
+        (posture(lambda x, y, b: 0 if x == y == 0 else right(x, y, b) - b), "the turn instead"),
         (posture(right, beta=lambda b: math.pi - b), "the outer angle at the elbow"),
         (posture(right, guard=False, beta=lambda b: math.pi - b), "the outer angle at the elbow"),
         (lambda p, b: np.degrees(posture(right)(p, b)), "degrees for radians"),
