@@ -22,22 +22,17 @@ const GAPS = [5, 14, 26, 40, 58, 84], // px between a point and its label
   TURNS = 12, // the number of directions
   NEAR = 3 * TURNS, // the number of places without a line
   HIGH = 16, // px: the height of a label
-  MOST = 40, // the cost above which a label with `near` is left out
-  STAYS = 1.5, // the cost that a label saves if it stays where it was in the last picture
-  JUMP = 40; // px: if its point has moved farther, a label takes a new place
-/** @type {WeakMap<Context, Map<string, [place: number, x: number, y: number]>>} */
-const memories = new WeakMap();
+  MOST = 40; // the cost above which a label with `near` is left out
 
 /**
- * Writes the labels of a picture, after everything else is drawn in it.
+ * Writes the labels of a picture, after everything else is drawn in it. The places depend only on
+ * what is drawn, so that the same state always has the same picture.
  * @param {Context} g
  * @param {Label[]} labels
  * @param {Box} room
  * @param {Box[]} [handles]  the boxes of the handles, which no label covers
  */
 export function placeLabels(g, labels, [left, top, width, height], handles = []) {
-  const memory = memories.get(g) ?? new Map();
-  memories.set(g, memory);
   ink.push(...handles.map(wordInk));
   /** @type {Dot[]} */
   const dots = [];
@@ -46,8 +41,6 @@ export function placeLabels(g, labels, [left, top, width, height], handles = [])
     while (marked < ink.length) mark(dots, ink[marked++]);
     g.font = font(12, weight);
     const wide = g.measureText(text).width + 4,
-      key = text.replace(/(?<![a-z])[\d.]+/gi, ""), // without numbers, which change
-      [last, ...from] = memory.get(key) ?? [-1, 0, 0],
       [ax, ay] = away ?? [0.5, -0.5],
       [px, py] = [between(at[0], left, width), between(at[1], top, height)],
       close = dots.filter(
@@ -58,10 +51,9 @@ export function placeLabels(g, labels, [left, top, width, height], handles = [])
       const gap = GAPS[Math.floor(k / TURNS)],
         turn = (2 * Math.PI * k) / TURNS,
         [c, s] = [Math.cos(turn), -Math.sin(turn)],
-        stays = k === last && Math.hypot(from[0] - px, from[1] - py) < JUMP ? STAYS : 0,
         u = px + c * (gap + wide / 2) - wide / 2,
         v = py + s * (gap + HIGH / 2) - HIGH / 2;
-      let cost = gap / 6 + 1 - ax * c - ay * s - stays;
+      let cost = gap / 6 + 1 - ax * c - ay * s;
       if (u !== between(u, left, width - wide) || v !== between(v, top, height - HIGH))
         cost += 5 * WORD;
       if (cost >= least) continue;
@@ -70,7 +62,6 @@ export function placeLabels(g, labels, [left, top, width, height], handles = [])
       if (cost < least) [least, x, y, place] = [cost, u, v, k];
     }
     if (near && least > MOST) continue;
-    memory.set(key, [place, px, py]);
     if (place >= NEAR && !away)
       stroke(g, [at, [between(px, x, wide), between(py, y, HIGH)]], color, 1);
     write(g, text, x + 2, y + 12, color, 12, "left", weight);
