@@ -44,7 +44,7 @@ KINDS = ("cells", "texts", "views", "verdicts")
 
 class Named(NamedTuple):
     """An expected difference of kind "error", "text", "view" or "verdict": in the cell that has
-    a text, or in the answer of an exercise with this name.
+    a text, or in the answer of an exercise with this name. Without a lab, it occurs in all labs.
     """
 
     lab: str
@@ -241,16 +241,15 @@ def report(labs):
             named = [
                 each
                 for each in EXPECTED
-                if (each.lab, each.kind) == (lab.name, kind) and each.where in where
+                if each.kind == kind and each.lab in (lab.name, "") and each.where in where
             ]
             used |= set(named)
             reason = "; ".join(each.reason for each in named) or "NOT EXPECTED"
             rows.append(f"{lab.name}, {kind}, {words}\n    {reason}")
             if not named:
                 wrong.append(rows[-1])
-    stale = [
-        each for each in EXPECTED if each not in used and each.lab in {lab.name for lab in labs}
-    ]
+    names = {"", *(lab.name for lab in labs)}
+    stale = [each for each in EXPECTED if each not in used and each.lab in names]
     print(f"\n{'lab':32}" + "".join(f"{kind:>10}" for kind in KINDS) + "   page and CPython")
     total = Counter()
     for lab in labs:

@@ -458,6 +458,11 @@ def test_one_changed_input_among_several_is_reported():
     assert outcome.name == "changes its input"
 
 
+def test_the_rounding_error_of_a_zero_is_not_shown(lab):
+    answer = np.array([1.1e-16, -1e-15, 1.5708])
+    assert "you return [0, 0, 1.5708]" in check("made.1", lambda height, angle: answer).case
+
+
 # --- Names of mistakes ----------------------------------------------------------------------------
 
 

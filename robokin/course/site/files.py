@@ -89,11 +89,13 @@ def assets(folder: Path) -> dict[str, int]:
     numpy = dict(_of_tar(package(NUMPY)))
     inner = next(data for name, data in numpy.items() if name.startswith("package/pkg/"))
     packages = "lib/python3.11/site-packages/"
-    made["numpy.zip"] = _zipped(
+    kept = [
         (name.removeprefix(packages), data)
         for name, data in _of_tar(inner)
         if name.startswith(f"{packages}numpy/") and not re.search(UNUSED["numpy"], name)
-    )
+    ]
+    # `from numpy import *`, with which SymPy makes functions, imports each part of NumPy
+    made["numpy.zip"] = _zipped([*kept, ("numpy/f2py/__init__.py", b"")])
     made["robokin.zip"] = _zipped(own())
     made["sympy.zip"] = _zipped((*_of_wheel(SYMPY), *_of_wheel(MPMATH)))
     files = {f"{name}.gz": gzip.compress(data, 9, mtime=0) for name, data in made.items()}
