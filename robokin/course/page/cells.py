@@ -4,6 +4,7 @@ import ast
 import contextlib
 import dis
 from collections.abc import Collection, Sequence
+from functools import cache
 from types import CodeType
 
 SETS = (ast.Assign, ast.Import, ast.ImportFrom, ast.FunctionDef, ast.ClassDef, ast.Expr)
@@ -37,6 +38,7 @@ def needs(sources: Sequence[str], i: int, have: Collection[str]) -> list[int]:
     return sorted(found)
 
 
+@cache
 def calls(source: str) -> set[str]:
     """Return the names of the functions that a cell calls, but not those that its own functions
     call. A cell with a syntax error calls none.
@@ -53,6 +55,7 @@ def calls(source: str) -> set[str]:
     return found
 
 
+@cache
 def names(source: str) -> tuple[set[str], set[str]]:
     """Return the names that a cell reads before it sets them, and those that it sets. A cell with a
     syntax error has none.
