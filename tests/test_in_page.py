@@ -282,7 +282,7 @@ def test_questions_are_not_run(lab):
         assert each.locator(".rk-bar").count() == 0
 
 
-def test_changes_survive_and_go_into_the_download(lab, context, site_address):
+def test_changes_survive_and_go_into_the_download(lab, site):
     text = "swing = 45 * deg  # mine\nprint(swing)"
     lab.edit(POINT, text)
     ask = lab.page.locator(".rk-ask").first
@@ -293,7 +293,7 @@ def test_changes_survive_and_go_into_the_download(lab, context, site_address):
         lab.page.get_by_role("button", name="Download my notebook").click()
     assert download.value.suggested_filename == f"{FRAMES}.ipynb"
     mine = json.loads(download.value.path().read_text(encoding="utf-8"))
-    stored = json.loads((NOTEBOOKS / f"{FRAMES}.ipynb").read_text(encoding="utf-8"))
+    stored = json.loads((site / f"{FRAMES}.ipynb").read_text(encoding="utf-8"))
     pairs = zip(mine["cells"], stored["cells"], strict=True)
     changed = [own for own, lab_cell in pairs if own != lab_cell]
     sources = {cell["id"]: "".join(cell["source"]) for cell in changed}
