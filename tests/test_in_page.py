@@ -282,7 +282,7 @@ def test_questions_are_not_run(lab):
         assert each.locator(".rk-bar").count() == 0
 
 
-def test_changes_survive_and_go_into_the_download(lab, context, site_address):
+def test_changes_survive_and_go_into_the_download(lab, site):
     text = "swing = 45 * deg  # mine\nprint(swing)"
     lab.edit(POINT, text)
     ask = lab.page.locator(".rk-ask").first
@@ -293,7 +293,7 @@ def test_changes_survive_and_go_into_the_download(lab, context, site_address):
         lab.page.get_by_role("button", name="Download my notebook").click()
     assert download.value.suggested_filename == f"{FRAMES}.ipynb"
     mine = json.loads(download.value.path().read_text(encoding="utf-8"))
-    stored = json.loads((NOTEBOOKS / f"{FRAMES}.ipynb").read_text(encoding="utf-8"))
+    stored = json.loads((site / f"{FRAMES}.ipynb").read_text(encoding="utf-8"))
     pairs = zip(mine["cells"], stored["cells"], strict=True)
     changed = [own for own, lab_cell in pairs if own != lab_cell]
     sources = {cell["id"]: "".join(cell["source"]) for cell in changed}
@@ -459,22 +459,23 @@ def test_screen_reader_can_use_cells(browser, site_address, scheme):
     context.close()
 
 
-@pytest.mark.parametrize("name", ["08_visit_and_collect", "10_obstacle_avoidance"])
-def test_a_view_that_asks_python_wakes_and_sleeps(browser, site_address, name):
+@pytest.mark.parametrize(
+    "name, cell", [("08_visit_and_collect", "opening"), ("10_obstacle_avoidance", "plan-explorer")]
+)
+def test_a_view_that_asks_python_wakes_and_sleeps(browser, site_address, name, cell):
     context = browser.new_context(viewport={"width": 1366, "height": 900})
     lab = Lab(context, site_address, name)
-    awake(lab.page)
-    asleep = lab.page.locator(f"{PLAYER}:has(.rk-asleep:not([hidden]))").first
-    place = asleep.locator("xpath=ancestor::div[contains(@class, 'cell ')][1]")
-    place.get_by_role("button", name="Run").click()
-    lab.done()
-    view = place.locator(f".rk-mine {PLAYER}")
+    lab.run(cell)
+    view = lab.cell(cell).locator(f".rk-mine {PLAYER}")
+    view.scroll_into_view_if_needed()
+    until(lambda: view.get_attribute("data-awake") is not None, "it stays asleep", lab.page)
+    slider = view.locator(".rk-side input[type=range]").first
+    slider.focus()
+    slider.press("ArrowUp")
     until(lambda: view.get_attribute("data-answered"), "no answer", lab.page)
-    assert view.get_attribute("data-awake") is not None
-    place.get_by_role("button", name="Edit").click()
-    place.locator("textarea").fill("while True: pass")
-    place.get_by_role("button", name="Run").click()
-    place.get_by_role("button", name="Stop").click()
+    lab.edit(cell, "while True: pass")
+    lab.button(cell, "Run").click()
+    lab.button(cell, "Stop").click()
     lab.done()
     assert lab.page.locator("[data-awake]").count() == 0
     assert lab.errors == [] and lab.outside == []

@@ -5,9 +5,10 @@ import subprocess
 import sys
 
 import pytest
+import sympy
 
 from robokin.course.page.cells import needs
-from robokin.course.page.session import CUT, MOST, Session
+from robokin.course.page.session import CUT, MOST, Session, mime_bundle
 
 LAB = [
     "import numpy as np\nfrom robokin import IRB140",
@@ -191,3 +192,11 @@ def test_streams_are_given_back():
     before = sys.stdout, sys.stderr
     Session().run("import sys\nsys.stdout = None\n1/0", 0)
     assert (sys.stdout, sys.stderr) == before
+
+
+def test_a_formula_of_sympy_is_shown_as_mathml():
+    x = sympy.Symbol("x_1")
+    data = mime_bundle(sympy.sqrt(x) / 2)
+    assert data["text/plain"] == "sqrt(x_1)/2"
+    assert "<msub><mi>x</mi><mi>1</mi></msub>" in data["text/html"]
+    assert data["text/html"].startswith("<math") and "<msqrt>" in data["text/html"]

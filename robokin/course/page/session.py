@@ -3,6 +3,7 @@
 import ast
 import builtins
 import contextlib
+import importlib
 import io
 import linecache
 import sys
@@ -93,6 +94,10 @@ def mime_bundle(value: Any) -> dict[str, Any]:
     html = getattr(value, "_repr_html_", None)
     if callable(html) and not isinstance(value, type) and (text := html()) is not None:
         data["text/html"] = text
+    if type(value).__module__.startswith("sympy."):
+        written = importlib.import_module("sympy.printing.mathml").mathml
+        formula = written(value, printer="presentation")
+        data["text/html"] = f'<math display="block">{formula}</math>'
     return data
 
 

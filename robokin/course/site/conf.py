@@ -186,7 +186,7 @@ def _runnable(app: Any, pagename: str, template: str, context: Any, doctree: Any
     ]
     made = json.loads(Path(app.srcdir, SIZES).read_text(encoding="utf-8"))
     sympy = any("sympy" in cell["source"] for cell in code)
-    parts = {"python": [], "sympy": []}
+    parts: dict[str, list[Any]] = {"python": [], "sympy": []}
     for name, size in made["sizes"].items():
         kind = "sympy" if name.startswith("sympy") else "python"
         if name.endswith(".gz") and (kind == "python" or sympy):

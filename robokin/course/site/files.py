@@ -40,9 +40,7 @@ CORE = (
 # What the page does not need of a package, as the beginnings or parts of names.
 UNUSED = {
     "numpy": r"/(tests|f2py|distutils|_pyinstaller|doc)/|\.pyi$|conftest|_simd|_tests\.cpython",
-    # its solvers and simplify use physics.units
-    "sympy": r"/(tests|benchmarks)/|^sympy/(stats/|parsing/\w+/)|"
-    r"^sympy/physics/(?!units/|matrices|__init__)",
+    "sympy": r"/(tests|benchmarks)/|^sympy/parsing/\w+/",
     "mpmath": r"/tests/",
     "robokin": r"__pycache__|/course/(site|templates)/|\.d\.ts$|py\.typed$",
 }

@@ -139,7 +139,10 @@ export class Cell {
     if (this.resets) this.resets.hidden = this.text === this.data.source && !this.own;
   }
 
-  /** Shows the reader's own result in the place of the stored one, or the stored one. @param {?Output[]} outputs */
+  /**
+   * Shows the reader's result in the place of the stored one; without one, the stored one.
+   * @param {?Output[]} outputs
+   */
   show(outputs) {
     this.own?.remove();
     this.own = outputs && shown(outputs, this.stored);

@@ -31,7 +31,10 @@ export function keep(id, edit) {
   } catch (error) {
     const full = error instanceof DOMException && error.name === "QuotaExceededError";
     const why = full ? "has no more room for this site" : "does not let this page store anything";
-    return `Your browser ${why}, so your changes are lost when you close the page. Press "Download my notebook" to keep them.`;
+    return (
+      `Your browser ${why}, so your changes are lost when you close the page. ` +
+      'Press "Download my notebook" to keep them.'
+    );
   }
 }
 

@@ -1,4 +1,4 @@
-// The files of the page's Python are compressed, since a plain host does not compress what it sends.
+// The files of the page's Python are compressed, since a plain host compresses nothing.
 
 /**
  * Returns the content of a file. A host that sends a .gz file as compressed content has the browser

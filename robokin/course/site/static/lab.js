@@ -10,7 +10,15 @@ import {Views} from "./views.js";
 /** @import {CellData} from "./cell.js" */
 /** @import {File} from "./python.js" */
 /** @import {Output} from "./outputs.js" */
-/** @typedef {{file: string, version: string, python: File[], sympy: File[], cells: CellData[]}} LabData */
+/**
+ * What conf.py writes into the page.
+ * @typedef {object} LabData
+ * @property {string} file  the name of the notebook
+ * @property {string} version
+ * @property {File[]} python
+ * @property {File[]} sympy
+ * @property {CellData[]} cells
+ */
 /** @typedef {{outputs: Output[]}} Result */
 
 const ABOVE = "A cell above that this one needs ended with an error.";
@@ -102,12 +110,15 @@ class Lab {
     }
   }
 
-  /** Runs the cells that a cell needs; returns whether all of them ended without an error. @param {Cell} cell */
+  /**
+   * Runs the cells that a cell needs; returns whether all of them ended without an error.
+   * @param {Cell} cell
+   */
   async prepare(cell) {
     const {cells} = this,
       texts = cells.map(({text}) => text);
-    /** @type {number[]} */
-    const needs = await this.python.call("needs", texts, cells.indexOf(cell));
+    const found = await this.python.call("needs", texts, cells.indexOf(cell)),
+      needs = /** @type {number[]} */ (found);
     const stopped = needs.map(k => cells[k]).find(each => each.stopped);
     if (stopped) {
       cell.say(`This cell needs ${stopped.name}, which was stopped.`, [
@@ -131,13 +142,14 @@ class Lab {
    * @type {(cell: Cell, asked: boolean) => Promise<boolean>}
    */
   async execute(cell, asked) {
-    /** @type {Result} */
-    const result = await this.python
-      .call("run", cell.text, this.cells.indexOf(cell))
-      .catch(error => {
-        cell.stopped = true;
-        throw error;
-      });
+    let result;
+    try {
+      const answer = await this.python.call("run", cell.text, this.cells.indexOf(cell));
+      result = /** @type {Result} */ (answer);
+    } catch (error) {
+      cell.stopped = true;
+      throw error;
+    }
     const fine = !result.outputs.some(({output_type}) => output_type === "error");
     if (asked || !fine || cell.text !== cell.data.source) cell.show(result.outputs);
     this.views.learn(result.outputs);

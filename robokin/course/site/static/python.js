@@ -1,10 +1,10 @@
-// The page's side of Python: fetches its files once, starts a worker with them, asks it, and ends it.
+// The page's side of Python: fetches its files once, starts a worker, asks it, and ends it.
 
 /** @import {Said} from "./worker.js" */
 
 /** @typedef {{name: string, size: number}} File */
 /** @typedef {(sentence: string) => void} Say */
-/** @typedef {{reject: (why: Error) => void, resolve: (value: any) => void}} Waiting */
+/** @typedef {{reject: (why: Error) => void, resolve: (value: unknown) => void}} Waiting */
 
 /** Why a call has no result: the reader or the page ended Python. */
 export class Ended extends Error {
@@ -95,7 +95,7 @@ export class Python {
    * Calls a function in the worker.
    * @param {"needs" | "run" | "ask"} call
    * @param {...unknown} given
-   * @returns {Promise<any>}
+   * @returns {Promise<unknown>}
    */
   call(call, ...given) {
     return new Promise((resolve, reject) => {

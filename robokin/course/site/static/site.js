@@ -11,7 +11,7 @@
   tell();
 })();
 
-// Labs run their cells in the page (lab.js). A browser loads no modules and no worker from a folder.
+// Labs run their cells in the page (lab.js), but a browser loads no modules from a folder.
 (() => {
   const here = /** @type {HTMLScriptElement} */ (document.currentScript).src,
     why = document.querySelector(".rk-asleep-cells");
@@ -19,8 +19,8 @@
   if (location.protocol !== "file:") void import(new URL("lab.js", here).href);
   else if (why) {
     why.textContent =
-      "This page was opened from a folder, so its cells cannot run here. They run if you open the " +
-      "page at a web address.";
+      "This page was opened from a folder, so its cells cannot run here. " +
+      "They run if you open the page at a web address.";
     why.classList.add("rk-said");
   }
 })();

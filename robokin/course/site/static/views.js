@@ -1,4 +1,4 @@
-// Views that ask Python (live.js in robokin.show): the page is their kernel. Such a view says its id
+// Views that ask Python (live.js in robokin.show): the page is their kernel. A view says its id
 // when it is created; it is active while Python knows the id.
 
 /** @import {Output} from "./outputs.js" */
