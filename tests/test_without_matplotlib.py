@@ -105,6 +105,24 @@ def test_each_cell_alone_with_what_it_needs_shows_the_same():
     assert alone > 3
 
 
+@pytest.mark.parametrize("path", LABS, ids=lambda path: path.stem)
+def test_a_number_to_change_changes_more_than_a_picture(path):
+    """In a page, pictures do not follow the reader's numbers. So after each `# try`, a text or a
+    view of this cell or of a cell that depends on it does.
+    """
+    cells = json.loads(path.read_text(encoding="utf-8"))["cells"]
+    cells = [cell for cell in cells if cell["cell_type"] == "code"]
+    sources = ["".join(cell["source"]) for cell in cells]
+    for i, source in enumerate(sources):
+        if "# try" in source:
+            reached = [k for k in range(i, len(cells)) if k == i or i in needs(sources, k, ())]
+            outputs = [output for k in reached for output in cells[k]["outputs"]]
+            assert any(
+                output["output_type"] == "stream" or "robokin-figure" not in str(output["data"])
+                for output in outputs
+            ), source
+
+
 # --- Calls that need Matplotlib -------------------------------------------------------------------
 
 MOTION = "import numpy as np\nfrom robokin import SCARA\nfrom robokin import show\n"
@@ -158,13 +176,16 @@ def test_plots_still_refuse_invalid_calls():
 # --- Ticks ----------------------------------------------------------------------------------------
 
 
+LOCATOR = MaxNLocator(nbins=4, steps=[1, 2, 2.5, 5, 10])
+
+
 def matplotlib_ticks(low, high):
     """The lowest tick, the step and the number of ticks; `scale` rounds its range like this."""
     low, high = (float(f"{x:.6g}") if abs(x) > 1e-6 else 0.0 for x in (low, high))
     if high - low < 1e-6 * max(abs(low), abs(high), 1e-3):
         pad = 0.5 * max(abs(low), 1.0)
         low, high = low - pad, high + pad
-    ticks = MaxNLocator(nbins=4, steps=[1, 2, 2.5, 5, 10]).tick_values(low, high)
+    ticks = LOCATOR.tick_values(low, high)
     return float(f"{ticks[0]:.6g}") + 0.0, float(f"{ticks[1] - ticks[0]:.6g}"), len(ticks)
 
 
