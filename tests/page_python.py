@@ -39,6 +39,7 @@ HERE = Path(__file__).parent
 WORKER = ROOT / "robokin" / "course" / "site" / "static" / "worker.js"
 PROCESSES = 2  # in each of them the page's Python, and then CPython
 NEAR = 1e-9
+NUMBER = re.compile(r"\d+\.\d{10,}(?:e-?\d+)?")  # with all its digits, in Python code
 KINDS = ("cells", "texts", "views", "verdicts")
 
 
@@ -53,7 +54,22 @@ class Named(NamedTuple):
     reason: str
 
 
-EXPECTED: list[Named] = []
+ROUNDING = "rounding decides between two values that are nearly equal"
+SAMPLES = "rounding decides which samples a page draws"
+EXPECTED = [
+    Named("", "text", "report(who)", "a page says how to hand in its lab"),
+    Named("00_start_here", "error", "import ipywidgets", "a page has no widgets"),
+    Named("03_irb140_motion", "view", "race_goals, race_times, runs = [], [], []", SAMPLES),
+    Named("03_irb140_motion", "view", "goal_turns = np.arange", SAMPLES),
+    Named("03_irb140_motion", "view", 'predict("irb140_motion.p8")', "it shows a rounding error"),
+    Named("06_spherical_wrist", "text", "def wrists(theta)", ROUNDING),
+    Named("06_spherical_wrist", "text", "def my_wrist(h, wrist)", ROUNDING),
+    Named("07_puma560_branches", "view", "crossing = follow(", "joint values in 16 bits"),
+    Named("08_visit_and_collect", "error", "subprocess.run", "a page has no other programs"),
+    Named("11_motor_synchronisation", "error", "import linprog", "a page has no SciPy"),
+    Named("12_two_link_code_generation", "text", "in_c = compiled(", "a page has no C compiler"),
+    Named("14_conveyor", "view", "conveyor_player(speed, [0, 0.5, 1]", SAMPLES),
+]
 
 
 class Lab:
@@ -139,6 +155,10 @@ def apart(one, other, place="view"):
             return f"{place}: {len(one)} items and {len(other)}"
         pairs = enumerate(zip(one, other, strict=True))
         found = (apart(*pair, f"{place}[{k}]") for k, pair in pairs)
+    elif isinstance(one, str) and isinstance(other, str):
+        numbers = ([float(each) for each in NUMBER.findall(text)] for text in (one, other))
+        same = NUMBER.sub("0", one) == NUMBER.sub("0", other) and apart(*numbers) is None
+        return None if same else f"{place}: {_first_difference(one, other)}"
     elif all(
         isinstance(each, (int, float)) and not isinstance(each, bool) for each in (one, other)
     ):

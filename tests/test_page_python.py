@@ -19,8 +19,9 @@ def view(**data):
 
 
 @pytest.fixture
-def lab(tmp_path):
+def lab(tmp_path, monkeypatch):
     """A lab with two cells and the same answers from both Pythons."""
+    monkeypatch.setattr(page_python, "EXPECTED", [])
     sources = ["print(first)", "animate(second)"]
     cells = [{"cell_type": "code", "source": [text]} for text in sources]
     (tmp_path / "01_lab.ipynb").write_text(json.dumps({"cells": cells}))
@@ -72,6 +73,9 @@ def test_a_difference_must_be_named(lab, kind, monkeypatch, capsys):
         ({"a": 1}, {"b": 1}, "view"),
         ([None, "x"], [None, "y"], "view[1]"),
         ([0], [None], "view[0]"),
+        (["q = 2.2261521378281240"], ["q = 2.2261521378281235"], None),
+        (["q = 2.2261521378281240"], ["q = 2.2261521478281240"], "view[0]"),
+        (["q = 2.2261521378281240"], ["p = 2.2261521378281240"], "view[0]"),
         ([1], [True], "view[0]"),
         ([1.0], [float("nan")], "view[0]"),
     ],
