@@ -25,7 +25,7 @@ export function drawCurve(canvas, says, bench) {
     {t, angle, sent} = bench.run(),
     step = stepOf(bench.motor);
   /** @type {Panel} */
-  const panel = {g, left: 40, right: w - 46, top: 26, bottom: h - 32},
+  const panel = {g, left: 48, right: w - 46, top: 26, bottom: h - 32},
     {left, right, top, bottom} = panel;
   const made = angle.map(a => (a - angle[0]) / step),
     low = Math.min(0, ...sent, ...made),
