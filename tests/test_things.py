@@ -173,7 +173,7 @@ import {colors, polygon} from "./canvas.js";
 export const flag = {
   seen: ({foot}) => [foot],
   below() {},
-  above({g, cam}, flags, {labels}) {
+  above({g, cam}, flags, labels) {
     for (const {foot, label} of flags) {
       const [x, y] = cam.to(foot);
       const corners = [0, 1, 2, 3].map(k => [x + 12 * (k > 1 ? 1 : -1), y + 12 * (k % 3 ? 1 : -1)]);

@@ -471,8 +471,8 @@ def test_no_circle_larger_than_the_stated_one_fits():
     radius = number(r"of a circle about \(200, 0\) mm at most (\S+) mm", said) * mm
     assert _fits(SCARA, radius - 0.1 * mm) and not _fits(SCARA, radius + 0.1 * mm)
     text = sources("04")["limits-hole"]
-    assert _fits(SCARA, number(r"Up to (\d+) mm the arm gets all the way around", text) * mm)
-    assert not _fits(SCARA, number(r"From (\d+) mm on, joint 2 passes", text) * mm)
+    assert _fits(SCARA, number(r"Up to (\d+) mm, the arm gets all the way around", text) * mm)
+    assert not _fits(SCARA, number(r"At (\d+) mm and above, joint 2 passes", text) * mm)
 
 
 def test_omega_is_not_used_in_lab_04():

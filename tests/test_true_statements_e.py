@@ -683,11 +683,11 @@ def test_answers_to_the_questions_about_the_views_of_lab_10_are_true():
     pair, kept = said_pair("able", r"K2 = (.*?) m and K3 = (.*?) m\. .*clearance.* is (\S+) mm")
     assert least_distance(through(*pair), H) / mm == pytest.approx(kept, abs=0.06)
     H = np.array([1.5, 1.0])
-    text = r"AK comes as near as (\S+) mm before the gripper reaches K2, and (\S+) mm after K3"
+    text = r"as near as (\S+) mm before the gripper reaches K2, (\S+) mm .*, and (\S+) mm after K3"
     near = numbers(text, flat("10", "via-rule"))
     rule = via_path(ARM, START_10, K1_10, H)
     found = [least_distance(rule[k : k + 2], H) / mm for k in range(3)]
-    assert [found[0], found[2]] == pytest.approx(near, abs=0.06) and max(near) * mm < DISTANCE
+    assert found == pytest.approx(near, abs=0.06) and max(near) * mm < DISTANCE
     on_AK = [lever_distance(q, H, slice(2, 3)) for q in rule]
     assert on_AK == pytest.approx([lever_distance(q, H) for q in rule])
     pair, kept = said_pair("via-rule", r"K2 = (.*?) m and K3 = (.*?) m, the clearance is (\S+) mm")
@@ -710,15 +710,15 @@ def test_swept_place_and_the_minimum_between_samples_are_as_stated():
     s = np.linspace(0, 1, 20001)[:, None]
     assert lever_distance(a + s * (b - a), H, slice(2, 3)).min() < 1e-3
     path = direct(np.array([150, 120, 120]) * deg)
-    d = lever_distance(path[0] + s * (path[1] - path[0]), np.array([1.7, 1.0]))
+    d = lever_distance(path[0] + s * (path[1] - path[0]), np.array([1.65, 1.1]))
     near = s[d < DISTANCE, 0]
     assert (np.diff(near) < 1e-3).all(), "there is more than one minimum"
-    told = numbers(r"From (\d+) to (\d+) %, a seventh", flat("10", "whole-bound"))
+    told = numbers(r"From (\d+) to (\d+) %, about a seventh", flat("10", "whole-bound"))
     assert told == [round(100 * near[0]), round(100 * near[-1])]
     assert np.ptp(near) == pytest.approx(1 / 7, abs=0.01)
     hand = re.search(r"slider to (.*?) and 100 %", flat("10", "whole-hand"))[1]
     shares = [float(x) / 100 for x in hand.split(", ")] + [1.0]
-    seen = [lever_distance(path[0] + x * (path[1] - path[0]), np.array([1.7, 1.0])) for x in shares]
+    seen = [lever_distance(path[0] + x * (path[1] - path[0]), np.array([1.65, 1.1])) for x in shares]
     assert min(seen) > DISTANCE, "a sample is too near, so the program notices"
 
 

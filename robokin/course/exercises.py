@@ -139,4 +139,4 @@ def in_words(value: Any) -> str:
 
 def _row(values: Any) -> str:
     # without the rounding error of a zero, which differs from machine to machine
-    return ", ".join(f"{x:.5g}" for x in np.round(values, 12) + 0.0)
+    return ", ".join(f"{x:.5g}" for x in np.round(np.asarray(values, float), 12) + 0.0)
