@@ -112,7 +112,9 @@ def test_numbers_used_in_the_predictions_are_correct():
         in_time = np.flatnonzero(at >= free + ways(BIN))
         if len(in_time):
             free, done = at[in_time[0]] + ways(BIN)[in_time[0]], done + 1
-    assert options[right].reason.startswith(f"It takes {soon} instead of {done}. ") and soon > 2 * done
+    assert (
+        options[right].reason.startswith(f"It takes {soon} instead of {done}. ") and soon > 2 * done
+    )
     lost = {v: missed(v / 1000, 0.15, 0.5, 8, BIN, 1) for v in (85, 90, 95)}
     _, options, right = filled(LAB.predictions["p9"])
     assert lost[85] == lost[90] == 0 < lost[95] and "90 mm/s" in options[right].text

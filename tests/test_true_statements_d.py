@@ -119,7 +119,9 @@ def test_gripper_distance_and_success_of_larger_circles_are_as_stated():
         mended += small >= 1e-6 and large >= DISTANCE
         lost += small < 1e-6 and large >= DISTANCE
     text = flat("10", "often-look")
-    assert numbers(r"paths of (\d+) tasks keep the .* the (\d+) tasks in .* none among the (\d+) in", text) == [
+    assert numbers(
+        r"paths of (\d+) tasks keep the .* the (\d+) tasks in .* none among the (\d+) in", text
+    ) == [
         mended,
         100 - swept,
         swept,

@@ -718,7 +718,9 @@ def test_swept_place_and_the_minimum_between_samples_are_as_stated():
     assert np.ptp(near) == pytest.approx(1 / 7, abs=0.01)
     hand = re.search(r"slider to (.*?) and 100 %", flat("10", "whole-hand"))[1]
     shares = [float(x) / 100 for x in hand.split(", ")] + [1.0]
-    seen = [lever_distance(path[0] + x * (path[1] - path[0]), np.array([1.65, 1.1])) for x in shares]
+    seen = [
+        lever_distance(path[0] + x * (path[1] - path[0]), np.array([1.65, 1.1])) for x in shares
+    ]
     assert min(seen) > DISTANCE, "a sample is too near, so the program notices"
 
 
