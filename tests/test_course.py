@@ -390,7 +390,7 @@ def test_verdicts_do_not_depend_on_threads_and_the_page_is_told(monkeypatch):
     told = threadless(monkeypatch)
     assert [check("made.1", answer) for answer in tried] == before
     assert len(told) >= 2 * len(tried) and told[1::2] == [None] * (len(told) // 2)
-    says = "It never ends, or is far too slow (stopped after 12 s)."
+    says = "It never ends, or is far too slow (stopped after 30 s)."
     assert set(told[::2]) == {(answers.PAGE, says)}
 
 
@@ -400,12 +400,11 @@ def test_page_is_told_that_an_answer_ended_even_if_it_raises(monkeypatch):
     assert len(told) == 2 and told[1] is None
 
 
-def test_all_cases_together_may_take_a_limited_time_without_threads(monkeypatch):
-    threadless(monkeypatch)
-    monkeypatch.setattr(answers, "TOTAL", 0.2)
-    outcomes = answers.run(lambda x: time.sleep(0.06) or x, [(1,)] * 40)
-    assert len(outcomes) < 12 and outcomes[-1].name == "too slow"
-    assert {o.result for o in outcomes[:-1]} == {1}
+def test_slow_page_refuses_no_correct_answer(monkeypatch):
+    told = threadless(monkeypatch)
+    monkeypatch.setattr(answers, "TOTAL", 0.02)
+    outcomes = answers.run(lambda x: time.sleep(0.01) or x, [(k,) for k in range(9)])
+    assert [each.result for each in outcomes] == list(range(9)) and len(told) == 18
 
 
 def test_time_limit_leaves_no_thread_behind(monkeypatch):

@@ -24,7 +24,7 @@ from . import page
 SECONDS = 4.0  # seconds of CPU time for one case, or for one program of a test
 TOTAL = 30.0  # seconds of CPU time for all cases together
 WALL = 90.0  # wall-clock seconds for one case: sleeping takes no CPU time
-PAGE = 12.0  # wall-clock seconds for one case in a web page, where Python is about 3 times slower
+PAGE = 30.0  # wall-clock seconds for one case in a web page, which has no clock of CPU time
 QUIET = {"RESUME", "NOP", "LOAD_CONST", "RETURN_VALUE", "RETURN_CONST"}
 IDENTITY: Any = object.__eq__  # the == of classes that do not define one
 RAISING = {"LOAD_GLOBAL", "RAISE_VARARGS", "PUSH_NULL", "PRECALL", "CALL"}
@@ -203,14 +203,11 @@ class _Worker:
         self.gone.release()
 
     def run_here(self) -> None:
-        """Answer without a thread, in a web page."""
-        first = time.monotonic()
+        """Answer without a thread, in a web page. All cases together have no limit there: measured by
+        the wall clock, it would refuse a correct answer on a slow phone.
+        """
         with np.errstate(all="ignore"):
             for case in self.cases:
-                if time.monotonic() - first > TOTAL:
-                    self.over = "all"
-                    self.outcomes.append(NEVER)
-                    break
                 page.began(PAGE, _never(PAGE).says)
                 try:
                     self.outcomes.append(_call(self.answer, case))
