@@ -203,8 +203,8 @@ class _Worker:
         self.gone.release()
 
     def run_here(self) -> None:
-        """Answer without a thread, in a web page. All cases together have no limit there: measured by
-        the wall clock, it would refuse a correct answer on a slow phone.
+        """Answer without a thread, in a web page. All cases together have no limit there: measured
+        by the wall clock, it would refuse a correct answer on a slow phone.
         """
         with np.errstate(all="ignore"):
             for case in self.cases:
