@@ -62,8 +62,11 @@ export function placeLabels(g, labels, [left, top, width, height], handles = [])
       if (cost < least) [least, x, y, place] = [cost, u, v, k];
     }
     if (near && least > MOST) continue;
-    if (place >= NEAR && !away)
-      stroke(g, [at, [between(px, x, wide), between(py, y, HIGH)]], color, 1);
+    if (place >= NEAR && !away) {
+      const end = /** @type {Pixel} */ ([between(px, x, wide), between(py, y, HIGH)]),
+        share = 8 / Math.hypot(end[0] - px, end[1] - py); // beside the dot at the point
+      stroke(g, [[px + share * (end[0] - px), py + share * (end[1] - py)], end], color, 1);
+    }
     write(g, text, x + 2, y + 12, color, 12, "left", weight);
   }
 }

@@ -261,8 +261,10 @@ function drawSpace(pen, arms, [x, y, w, h], named) {
       weight: "600",
     })),
   );
-  labels.push(...all.flatMap(drawFlange));
-  for (const kind in KINDS) KINDS[kind].above({...pen, near: first.near}, only(kind), labels);
+  /** @type {Label[]} */
+  const ofThings = [];
+  for (const kind in KINDS) KINDS[kind].above({...pen, near: first.near}, only(kind), ofThings);
+  labels.push(...all.flatMap(drawFlange), ...ofThings); // a flange is drawn over its target
   compass(g, cam, [x + w - 34, y + h - 34]);
   if (named) write(g, first.name, x + 10, y + 18, colors.ink, 13, "left", "600");
   if (arms.some(arm => arm.faded)) {
