@@ -78,7 +78,7 @@ def joined(table, q, part):
         ("degrees for radians", lambda t, q, p: invert(flange(t, np.radians(q))) @ p),
         ("sign", lambda t, q, p: invert(flange(t, -q)) @ p),
         ("another kind or shape", lambda t, q, p: (invert(flange(t, q)) @ p)[:3, 3]),
-        ("d and a exchanged", lambda t, q, p: invert(flange(t[:, [0, 2, 1, 3]], q)) @ p),
+        ("d and a swapped", lambda t, q, p: invert(flange(t[:, [0, 2, 1, 3]], q)) @ p),
     ],
 )
 def test_mistakes_in_poses_relative_to_the_flange_are_named(name, answer):

@@ -101,7 +101,7 @@ def test_other_mistakes_in_axes_are_recognised(answer, name):
     assert not verdict.holds and name in verdict.mistake
 
 
-def _exchanged_elsewhere(*case):
+def _swapped_elsewhere(*case):
     return _elsewhere_on_the_axis(*case)[::-1]
 
 
@@ -113,7 +113,7 @@ def _of_length_five(*case):
 @pytest.mark.parametrize(
     ("answer", "name"),
     [
-        (_exchanged_elsewhere, "points and directions exchanged"),
+        (_swapped_elsewhere, "points and directions swapped"),
         (_of_length_five, "the direction is not a unit vector"),
     ],
 )
@@ -161,7 +161,7 @@ def test_only_certain_wrong_programs_pass_at_regular_angles():
     caught = {name for name, program in WRONGS.items() if not judge(program)}
     only_there = set(WRONGS) - caught
     assert only_there == {
-        "the regular formulas beside the singularity",
+        "the regular formulas near the singularity",
         "a coarse threshold",
         "the regular formulas at theta = 0",
         "the regular formulas at theta = 180 degrees",
@@ -169,7 +169,7 @@ def test_only_certain_wrong_programs_pass_at_regular_angles():
         "a coarse threshold at theta = 180 degrees",
         "the difference at theta = 0, too",
         "the sum at theta = 180 degrees, too",
-        "NaN in the singularity",
+        "NaN at the singularity",
         "NaN for the free angle",
         "theta beyond half a turn",
         "a better root alone",
@@ -179,7 +179,7 @@ def test_only_certain_wrong_programs_pass_at_regular_angles():
 @pytest.mark.parametrize(
     ("test", "mistake"),
     [
-        (_judges([0.3, 1.0], 1e-10), "accepts: the regular formulas beside the singularity"),
+        (_judges([0.3, 1.0], 1e-10), "accepts: the regular formulas near the singularity"),
         (_judges([0.3, 1.0, 3.0], 1e-17), "refuses every program"),
         (
             _judges([0, 1e-8, 1e-4, 1, 2, np.pi], 1e-10),
@@ -306,11 +306,11 @@ def test_every_line_is_feasible_but_only_with_a_tilted_tool(who):
     assert verdict.mistake == "deg twice" and "perpendicular to the line" in verdict.says[0]
     verdict = check("spherical_wrist.3", line | {"up": side, "side": up}, who=who)
     if passage(n, -side, -up)[0] >= n["least_distance"]:
-        assert "With up and side exchanged, it would also be right" in verdict.says[0]
+        assert "With up and side swapped, it would also be right" in verdict.says[0]
     elif 50 > abs(n["slope"]) / deg > 40:  # up and side have nearly the same size
         assert verdict.holds or verdict.mistake in ("tilted to the wrong side", "too fast")
     elif not verdict.holds and verdict.mistake not in ("too fast", "too slow"):
-        assert verdict.mistake in ("up and side exchanged", "tilted along the line", "out of reach")
+        assert verdict.mistake in ("up and side swapped", "tilted along the line", "out of reach")
     for share, askew in itertools.product((0.5, 0.7, 0.9, 1), (-60, -30, 0, 30, 60)):
         c, s = share * np.cos(askew * deg), share * np.sin(askew * deg)
         least, _ = passage(n, -c * up - s * side, -c * side + s * up)

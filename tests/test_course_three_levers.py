@@ -118,7 +118,7 @@ def added(K, alpha, lengths):
             of_the_lab,
             "the formulas of equal levers, with OB, and clipped if there is no triangle",
         ),
-        (first_of_the_lab, "L of the lab used as OB"),
+        (first_of_the_lab, "the lab's L used as OB"),
         (whole_arm, "the reach of the whole arm"),
         (folded, "beta folded below 180°"),
         (added, "the wrong sign in the law of cosines"),
@@ -128,7 +128,7 @@ def added(K, alpha, lengths):
         (quotient, "arctan of y / x"),
         (lambda *case: levers(*case) / deg, "degrees for radians"),
         (lambda *case: levers(*case)[::-1], "the angles in another order"),
-        (lambda *case: np.nan_to_num(levers(*case)), "zeros instead of NaN, beside alpha"),
+        (lambda *case: np.nan_to_num(levers(*case)), "zeros instead of NaN, with alpha kept"),
     ],
 )
 def test_mistakes_in_levers_are_named(answer, mistake):
@@ -204,7 +204,7 @@ def least_test(at=1e-5, limit=1e-6, plus=0.02 * deg, relative=0.0):
         (least_test(at=1e-3), "accepts: rounded to hundredths of a degree"),
         (least_test(limit=0), "refuses a correct program"),
         (least_test(plus=0.01 * deg), "refuses a correct program"),
-        (least_test(plus=0.05 * deg), "accepts: S up to 0.028° above the least"),
+        (least_test(plus=0.05 * deg), "accepts: S up to 0.028° above the minimum"),
         (least_test(plus=0.15 * deg), "accepts: a step of 0.1°"),
     ],
 )
@@ -263,7 +263,9 @@ def test_slightly_wrong_posture_is_reported_with_different_numbers():
         side = np.arctan2(K[1], K[0])
         return [2 * side - gamma, 2 * np.pi - beta, 2 * np.pi - alpha]
 
-    assert "reaches K, too, but it is another posture" in check("three_levers.1", other_bend).case
+    assert (
+        "reaches K, too, but it is a different posture" in check("three_levers.1", other_bend).case
+    )
 
 
 def first_and_last_angle(program):

@@ -583,7 +583,7 @@ def test_ranges_of_alpha_and_gamma_are_as_stated():
     said = written("three_levers")
     (KO, low) = numbers(r"At (\S+) m alpha goes from (\S+)° to 180°\. At 3 m it cannot move", said)
     assert np.arccos((5 - KO**2) / 4) / deg == pytest.approx(low, abs=0.05)
-    assert "Your answer becomes right as K approaches 1 m from the base." in said
+    assert "Your answer becomes right as K's distance from the base approaches 1 m." in said
     off = [abs(90 - (180 - np.arccos((KO - 1) / 2) / deg)) for KO in (1.5, 1.1, 1.01, 1.0001)]
     assert (np.diff(off) < 0).all() and off[-1] < 0.01
     (x,) = numbers(r"With K at \((\S+), 0\) m, gamma is above 180° for every alpha", said)
@@ -597,16 +597,16 @@ def test_ranges_of_alpha_and_gamma_are_as_stated():
 def test_greedy_rule_is_compared_with_the_best_of_all_choices():
     question, options, right = asked("three_levers.p9")
     assert question.endswith("Which arm has turned its joints less in the end?")
-    tours, _, count, most, rows = numbers(
-        r"Of (\d+) random lists of (\d+) targets, the greedy arm turns over 5 % more than the "
-        r"planning arm on (\d+), and (\d+) % more on the worst. \(The plan uses the best of (\d+) "
+    count, tours, _, most, rows = numbers(
+        r"On (\d+) of (\d+) random lists of (\d+) targets, the greedy arm turns over 5 % more than "
+        r"the planning arm, and (\d+) % more on the worst list. \(The plan uses the best of (\d+) "
         r"postures",
         options[right].reason,
     )
     lost = LEVERS["losses"]()
     assert (tours, rows) == (len(lost), LEVERS["ROWS"]) and (lost > 0.05).sum() == count
     assert round(100 * lost.max()) == most
-    assert options[right].text.startswith("The planning arm on some lists; on the other lists both")
+    assert options[right].text.startswith("The planning arm on some lists; on the others, both")
     rng = np.random.default_rng(4)
     for _ in range(3):
         r, phi = rng.uniform(1.3, 2.7, 3), rng.uniform(0, 120, 3) * deg
@@ -630,7 +630,7 @@ def test_least_movement_per_task_is_the_same_in_both_replies():
     (twice,) = numbers(r"would have to add (\d+)° to every task, about twice", options[2].reason)
     assert abs(twice - 2 * each) <= 1 and twice / wide == pytest.approx(2, abs=0.1)
     text = flat("09", "race-look")
-    assert "Equal angles needs no search at all, only a formula." in text
+    assert "The rule of equal angles needs no search at all, only a formula." in text
 
 
 # --- Lab 10 ---------------------------------------------------------------------------------------

@@ -235,7 +235,9 @@ def test_quintic_corner_raises_the_tools_peak_acceleration_by_the_stated_factor(
 
 
 def test_joint_4_can_have_two_values_inside_its_limits():
-    others = "The given value of any other joint may also be whole turns outside its limits"
+    others = (
+        "The given value of any other joint may also be one or more whole turns outside its limits"
+    )
     one, two = says("irb140_motion", "only joint 6"), says("irb140_motion", "only joints 4 and 6")
     assert f"{others}, and joint 4 may have two values inside its limits." in one
     assert f"{others}." in two

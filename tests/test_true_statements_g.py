@@ -617,8 +617,8 @@ def test_width_of_the_narrower_range_follows_from_inverse_proportion():
 def test_recipe_for_the_other_bend_reaches_targets_behind_the_base():
     words = flat("09", "deeper-more")
     assert (
-        "Mirror K in the x axis, solve with `posture` of section 2, and mirror the result back. "
-        r"Check the limit of $\gamma$ only then. Which targets behind the base does this arm reach?"
+        "Mirror K in the x axis, solve with `posture` from section 2, and mirror the result back. "
+        r"Only then check the limit of $\gamma$. Which targets behind the base does this arm reach?"
         in words
     )
     assert "in every direction behind the base: at 1.2, 2.0 and 2.8 m we find postures" in words

@@ -128,7 +128,7 @@ def test_best_first_posture_costs_what_section_6_says():
 
 def test_both_arms_of_the_player_differ_for_the_stated_targets():
     words = flat("09", "greed-look")
-    wanted = numbers(r"For (\d+)° and (\d+)°\. There the planned arm has opened", words)
+    wanted = numbers(r"For (\d+)° and (\d+)°\. There the planning arm has opened", words)
     made = run_cells("09", "greed-code", "greed-player")
     greedy, planned = (q[:, 600] for q in made["player_motions"])  # after 3 s
     apart = abs(greedy - planned).max(axis=1) / deg > 1
@@ -152,8 +152,10 @@ def test_weights_reduce_the_change_of_gamma_by_the_stated_amount():
 
 def test_rounds_repeat_or_drift_as_stated():
     words = flat("09", "deeper-more")
-    assert "On 19 of them, the postures repeated from the seventh round on, or earlier. On" in words
-    assert "one list, they were still changing after fourteen rounds." in words
+    assert (
+        "For 19 of them, the postures were repeating by the seventh round at the latest." in words
+    )
+    assert "For one list, they were still changing after fourteen rounds." in words
     rng, settled = np.random.default_rng(0), []
     while len(settled) < 20:
         r, phi = rng.uniform(1.2, 2.8, 5), rng.uniform(0, 120, 5) * deg

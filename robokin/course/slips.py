@@ -1,5 +1,5 @@
 """Common slips in a result or an input of any exercise: wrong units, a wrong sign, rows and columns
-exchanged.
+swapped.
 """
 
 from collections.abc import Callable
@@ -120,7 +120,7 @@ RESULTS = (
         "You return the inverse of the answer, such as the base seen from the tool, or 1 / x.",
         _inverse,
     ),
-    ("transposed", "Rows and columns are exchanged.", _transposed),
+    ("transposed", "Rows and columns are swapped.", _transposed),
     (
         "wrapped angle",
         "You wrapped the angles to the range -180 to 180 degrees. Here they have to continue past "

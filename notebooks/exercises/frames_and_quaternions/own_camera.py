@@ -209,11 +209,11 @@ def turns(look: Floats) -> tuple[tuple[str, Floats, str], ...]:
         ("looks up", look * [1, 1, -1], "It points up as steeply as it should point down."),
         ("mirrored", look * [1, -1, 1], "Its y has the wrong sign: look at your rotation about z."),
         ("mirrored", look * [-1, 1, 1], "Its x has the wrong sign: look at your rotation about z."),
-        ("x and y exchanged", look[[1, 0, 2]], "Its x and y are exchanged: arctan2(y, x)."),
+        ("x and y swapped", look[[1, 0, 2]], "Its x and y are swapped: arctan2(y, x)."),
         ("half the rotation", unit(Z + look), "You rotated it by half the angle."),
         ("twice the rotation", 2 * look[2] * look - Z, "You rotated it by twice the angle."),
         (
-            "sine and cosine of the slope exchanged",
+            "sine and cosine of the slope swapped",
             unit(np.append(look[:2] / max(level, 1e-9) * abs(look[2]), -level)),
             "The angle of its slope is right, but you measured it from the wrong line: from z "
             "instead of from the horizontal, or the other way round.",

@@ -75,7 +75,7 @@ def law(case: tuple[Any, ...], yours: Floats, wanted: Floats) -> str | None:
         return f"{says}: a turn of {turn}° from {before / deg:.1f}°; you turn by {yours_turn}°"
     there = SHOULDER.fk(wrapped(yours)).translation
     if np.linalg.norm(there - point) <= 1e-9:
-        return f"{says}; your angles reach the point in another posture"
+        return f"{says}; your angles reach the point in a different posture"
     got, asked = apart(there / mm, point / mm)
     return f"{says}; your angles put the gripper at ({got}) mm instead of ({asked}) mm"
 

@@ -123,11 +123,11 @@ def too_near(given: Given, up: float, side: float, tilt: float, least: float) ->
     if other >= given["least_distance"]:
         line += f" With the same tilt to the other side, it would be {other:.4f}."
         if keeps(given, side, up):
-            line += " With up and side exchanged, it would also be right."
+            line += " With up and side swapped, it would also be right."
         return "tilted to the wrong side", line
     if keeps(given, side, up):
-        line += f" With up and side exchanged, it would be {passage(given, side, up)[0]:.4f}."
-        return "up and side exchanged", line
+        line += f" With up and side swapped, it would be {passage(given, side, up)[0]:.4f}."
+        return "up and side swapped", line
     return "too near the singularity", line
 
 

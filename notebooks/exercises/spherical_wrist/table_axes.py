@@ -50,7 +50,7 @@ def is_unit(rows: Floats) -> Any:
 
 class Axes:
     """Points and directions (n, 3) as they were returned. `rows`: directions and moments (n, 6),
-    which are the same for every point of an axis, even if points and directions are exchanged. A
+    which are the same for every point of an axis, even if points and directions are swapped. A
     direction that is not a unit vector is scaled to length 2 there.
     """
 

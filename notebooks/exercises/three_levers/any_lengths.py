@@ -1,4 +1,4 @@
-"""Levers of any lengths: the cases, and the sentences of the verdict."""
+"""Levers of any length: the cases, and the sentences of the verdict."""
 
 from typing import Any
 
@@ -106,7 +106,7 @@ def law(case: Case, yours: Any, wanted: Any) -> str | None:
     told, yours_told = apart(wanted / deg, yours / deg, 2)
     return (
         f"should be gamma, beta, alpha = ({told})°; yours, ({yours_told})°, reaches K, too, but "
-        "it is another posture"
+        "it is a different posture"
     )
 
 

@@ -112,7 +112,7 @@ def faults(alphas: Any, given: Given) -> list[Fault]:
     found = of_a_plan(alphas, given)
     if found and not of_a_plan(alphas[::-1], given):
         says = "Swap your two alphas, and the plan works: the first alpha is for the first target."
-        found.insert(0, ("the two alphas exchanged", says))
+        found.insert(0, ("the two alphas swapped", says))
     return found
 
 
