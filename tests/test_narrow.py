@@ -36,6 +36,7 @@ def small(tmp_path_factory):
     for lab in SOME:
         shutil.copyfile(NOTEBOOKS / f"{lab}.ipynb", source / f"{lab}.ipynb")
     (source / "index.md").write_text("# Labs\n\n```{toctree}\n" + "\n".join(SOME) + "\n```\n")
+    (source / "sizes.json").write_text(json.dumps({"version": "0", "sizes": {}}))
     making._run(source, source.with_name("made"))
     return source.with_name("made")
 
