@@ -63,9 +63,18 @@ export function placeLabels(g, labels, [left, top, width, height], handles = [])
     }
     if (near && least > MOST) continue;
     if (place >= NEAR && !away) {
-      const end = /** @type {Pixel} */ ([between(px, x, wide), between(py, y, HIGH)]),
-        share = 8 / Math.hypot(end[0] - px, end[1] - py); // beside the dot at the point
-      stroke(g, [[px + share * (end[0] - px), py + share * (end[1] - py)], end], color, 1);
+      const u = between(px, x, wide),
+        v = between(py, y, HIGH);
+      // the line does not reach the dot at the point
+      stroke(
+        g,
+        [
+          [u, v],
+          [(4 * px + u) / 5, (4 * py + v) / 5],
+        ],
+        color,
+        1,
+      );
     }
     write(g, text, x + 2, y + 12, color, 12, "left", weight);
   }
@@ -88,7 +97,7 @@ function mark(dots, [points, wide, weight]) {
       const [x, y] = from ?? to,
         dx = to[0] - x,
         dy = to[1] - y,
-        count = Math.min(200, Math.ceil(Math.max(Math.abs(dx), Math.abs(dy)) / step)) || 1;
+        count = Math.min(200, Math.ceil(Math.hypot(dx, dy) / step)) || 1;
       for (let i = 1; i <= count; i++)
         dots.push([x + (i / count) * dx, y + (i / count) * dy, wide / 2, weight]);
     }
