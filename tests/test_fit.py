@@ -65,6 +65,8 @@ def test_no_word_hides_another_word_a_link_a_joint_or_a_handle(browser, exported
             page.evaluate(MOVE, [place, 10])
             page.evaluate(NEXT)
             found += [(place, fault) for fault in faults(page)]
+        words = page.evaluate("canvasWords().flatMap(canvas => canvas.words)")
+        assert len(words) > 5, "no words were recorded"
         assert len(found) <= allowed, f"{width} px: {found}"
         page.close()
 

@@ -46,7 +46,6 @@ import {compass} from "./triad.js";
  * @typedef {{g: Context, cam: Camera, scene: Scene, space: Space}} Pen
  */
 /**
-/**
  * How one kind of thing is drawn. T is its page data. `below` and `above` are called once, with all
  * things of the kind.
  *
