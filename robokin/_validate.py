@@ -48,6 +48,8 @@ def number(value: Any, name: str, what: str = "one number") -> float:
     """Return `value` as a float. Raises ValueError if it is not one finite number; the message says
     that `what` was wanted.
     """
+    if type(value) is float and math.isfinite(value):
+        return value  # ten times as fast as by an array
     array = floats(value, name)
     if array.ndim:
         raise ValueError(f"{name}: wanted {what}, got {short(value)}")

@@ -8,6 +8,7 @@
            files.
 """
 
+import contextlib
 import functools
 import http.server
 import importlib.util
@@ -130,6 +131,13 @@ def site(tmp_path_factory):
 @pytest.fixture(scope="session")
 def site_address(site):
     """The address of the site on a plain server: under a sub-path, and without compression."""
+    with served(site) as address:
+        yield address
+
+
+@contextlib.contextmanager
+def served(site):
+    """A plain server for a site's folder; returns the address."""
 
     class Quiet(http.server.SimpleHTTPRequestHandler):
         def log_message(self, *_):

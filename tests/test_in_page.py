@@ -101,7 +101,7 @@ class Lab:
         return self.page.locator("#" + next(c["place"] for c in cells if c["id"] == name))
 
     def button(self, name, label):
-        return self.cell(name).get_by_role("button", name=label)
+        return self.cell(name).locator(".rk-bar, .rk-status").get_by_role("button", name=label)
 
     def edit(self, name, text):
         box = self.cell(name).locator("textarea")
@@ -122,7 +122,8 @@ class Lab:
 
     def done(self):
         self.page.evaluate(NEXT_FRAME)
-        until(lambda: not self.page.locator("[data-running]").count(), "it still runs", self.page)
+        running = self.page.locator("[data-running]")
+        until(lambda: not running.count(), "it still runs", self.page)
 
     def shows(self, name):
         """The words of the visible outputs."""
@@ -239,6 +240,15 @@ def test_python_can_be_stopped_and_starts_again(lab):
     assert "[data-running]" not in lab.page.content()
     lab.run("elementary", lab.source("elementary"))
     assert lab.run(POINT) and lab.says(POINT) == "This is your result."
+
+
+def test_a_cell_that_is_stopped_before_it_began_does_not_run_by_itself(lab):
+    lab.edit("elementary", "while True:\n    pass")
+    run, stop = (lab.button("elementary", label).element_handle() for label in ("Run", "Stop"))
+    lab.page.evaluate("([run, stop]) => { run.click(); stop.click(); }", [run, stop])
+    lab.done()
+    lab.run(POINT)
+    assert "needs cell 4, which was stopped" in lab.says(POINT)
 
 
 def test_too_much_memory_ends_python_with_a_sentence(lab):

@@ -19,6 +19,7 @@ DATA_BYTES = 570_000
 NOTHING = -32768  # the integer for "no value"
 # added before rounding, so that every processor rounds an exact half in the same way
 TIE = 2e-7 * np.sqrt(2)
+EQUAL = 1e-6  # two speeds that differ by less than this share are equal but for rounding
 STEPS = np.array([0.1, 0.2, 0.25, 0.5, 1, 2, 2.5, 5, 10, 20])  # of ticks
 
 
@@ -122,16 +123,16 @@ def thin(count: int, tracks: Sequence[Recording], wanted: int) -> Ints:
 
 def _peaks(tracks: Sequence[Recording]) -> list[int]:
     """Return the samples with the greatest speeds and accelerations of each motion, beginning with
-    the greatest of all.
+    the greatest of all. Of samples that are equal but for rounding, it returns the first.
     """
     found: list[tuple[float, int]] = []
     for track in tracks:
         for values in (track.v, track.a):
             most = np.nan_to_num(abs(values)).max(axis=-1)  # (motions, samples)
             height = most.max(initial=0)
-            at = most.argmax(axis=-1)
+            at = (most >= (1 - EQUAL) * most.max(axis=-1, keepdims=True)).argmax(axis=-1)
             found += [
-                (-round(float(row[k] / height), 9), int(k))
+                (-round(float(row[k] / height), 6), int(k))
                 for row, k in zip(most, at, strict=True)
                 if height > 0
             ]

@@ -48,7 +48,7 @@ from robokin.show import (
 )
 
 sys.path.insert(0, str(Path(__file__).resolve().parents[1]))
-from conftest import FLAGS, JupyterLab
+from conftest import BROWSERS, FLAGS, JupyterLab
 
 POSES = """\
 start = Transform(Quaternion.from_angle_axis(90 * deg, (-1, 0, 0)), (0.2, 0.4, 0.2))
@@ -288,9 +288,7 @@ def theirs(page, cell):
 
 
 def main():
-    path = next(
-        filter(None, map(shutil.which, ("chromium", "chromium-browser", "google-chrome"))), None
-    )
+    path = next(filter(None, map(shutil.which, BROWSERS)), None)
     if path is None:
         raise SystemExit("no Chromium on this machine")
     v4 = nbformat.v4

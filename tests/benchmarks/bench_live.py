@@ -22,7 +22,7 @@ from typing import NamedTuple
 import nbformat
 import psutil
 from bench_explorers import theirs
-from conftest import FLAGS, JupyterLab
+from conftest import BROWSERS, FLAGS, JupyterLab
 
 
 class Case(NamedTuple):
@@ -230,9 +230,7 @@ def memory(page, lab):
 
 
 def main():
-    path = next(
-        filter(None, map(shutil.which, ("chromium", "chromium-browser", "google-chrome"))), None
-    )
+    path = next(filter(None, map(shutil.which, BROWSERS)), None)
     if path is None:
         raise SystemExit("no Chromium on this machine")
     from playwright.sync_api import sync_playwright

@@ -29,16 +29,6 @@ X, Y, Z = np.eye(3)
 START = Transform(Quaternion.from_angle_axis(90 * deg, -X), (0.2, 0.4, 0.2))
 VIA = Transform(Quaternion.from_angle_axis(45 * deg, Y), (0.65, -0.1, 0.8))
 GOAL = Transform(Quaternion.from_angle_axis(90 * deg, Y), (0.3, 0.3, 0.5))
-FLAGS = [
-    "--no-sandbox",
-    "--disable-gpu",
-    "--disable-quic",
-    "--no-first-run",
-    "--disable-background-networking",
-    "--disable-component-update",
-    "--disable-sync",
-]
-
 # The time of the picture that follows a key press is taken in a task after the next frame, when the
 # picture is on the screen.
 LISTEN = """() => {
@@ -144,9 +134,7 @@ def slider():
         f"blend slider, 51 x 2 motions of 2001 samples: built in {seconds:.2f} s, "
         f"{size / 1e3:.0f} kB"
     )
-    path = next(
-        filter(None, map(shutil.which, ("chromium", "chromium-browser", "google-chrome"))), None
-    )
+    path = next(filter(None, map(shutil.which, BROWSERS)), None)
     if path is None:
         print("no Chromium: the slider is not measured")
         return

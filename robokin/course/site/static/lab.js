@@ -103,6 +103,7 @@ class Lab {
       }
     } catch (error) {
       if (!(error instanceof Ended)) throw error;
+      if (error.how === "stopped") cell.stopped = true; // perhaps before it began
       this.explain(cell, error);
     } finally {
       this.running = null;
