@@ -243,9 +243,11 @@ def test_python_can_be_stopped_and_starts_again(lab):
 
 
 def test_a_cell_that_is_stopped_before_it_began_does_not_run_by_itself(lab):
-    lab.edit("elementary", "while True:\n    pass")
-    run, stop = (lab.button("elementary", label).element_handle() for label in ("Run", "Stop"))
-    lab.page.evaluate("([run, stop]) => { run.click(); stop.click(); }", [run, stop])
+    lab.edit("elementary", lab.source("elementary") + "\nwhile True:\n    pass")
+    lab.cell("elementary").evaluate("""cell => {
+        const [run, stop] = cell.querySelectorAll(".rk-bar button");
+        run.click();
+        stop.click(); }""")
     lab.done()
     lab.run(POINT)
     assert "needs cell 4, which was stopped" in lab.says(POINT)

@@ -25,6 +25,9 @@ from matplotlib.figure import Figure
 from robokin import IRB140, Quaternion, Transform, blend, deg, differentiate, follow, linear
 from robokin.show import JOINT_STYLES, animate
 
+sys.path.insert(0, str(Path(__file__).resolve().parents[1]))
+from conftest import BROWSERS, FLAGS
+
 X, Y, Z = np.eye(3)
 START = Transform(Quaternion.from_angle_axis(90 * deg, -X), (0.2, 0.4, 0.2))
 VIA = Transform(Quaternion.from_angle_axis(45 * deg, Y), (0.65, -0.1, 0.8))
