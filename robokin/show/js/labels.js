@@ -57,8 +57,10 @@ export function placeLabels(g, labels, [left, top, width, height], handles = [])
       if (u !== between(u, left, width - wide) || v !== between(v, top, height - HIGH))
         cost += 5 * WORD;
       if (cost >= least) continue;
-      for (const [dx, dy, r, heavy] of close)
+      for (const [dx, dy, r, heavy] of close) {
         if (dx > u - r && dx < u + wide + r && dy > v - r && dy < v + HIGH + r) cost += heavy;
+        if (cost >= least) break;
+      }
       if (cost < least) [least, x, y, place] = [cost, u, v, k];
     }
     if (near && least > MOST) continue;

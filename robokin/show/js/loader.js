@@ -43,11 +43,14 @@ function inTurn(act) {
 
 /**
  * Waits until one of the placeholders of a view is at most half the height of the window away. A
- * long page would be busy for seconds if all its views started together.
+ * long page would be busy for seconds if all its views started together. Until the page has loaded,
+ * its pictures have no height, and views that are far away seem to be near.
  * @param {string} id
  * @returns {Promise<void>}
  */
-function near(id) {
+async function near(id) {
+  if (document.readyState !== "complete")
+    await new Promise(resolve => addEventListener("load", resolve, {once: true}));
   return new Promise(resolve => {
     const seen = new IntersectionObserver(
       entries => {
@@ -55,7 +58,7 @@ function near(id) {
         seen.disconnect();
         resolve();
       },
-      {rootMargin: "50%", scrollMargin: "50%"},
+      {scrollMargin: "50%"}, // of the page, too: a rootMargin would be added to it
     );
     for (const place of document.querySelectorAll(`[data-player="${id}"]:not([data-ready])`))
       seen.observe(place);
