@@ -43,14 +43,11 @@ function inTurn(act) {
 
 /**
  * Waits until one of the placeholders of a view is at most half the height of the window away. A
- * long page would be busy for seconds if all its views started together. Until the page has loaded,
- * its pictures have no height, and views that are far away seem to be near.
+ * long page would be busy for seconds if all its views started together.
  * @param {string} id
  * @returns {Promise<void>}
  */
-async function near(id) {
-  if (document.readyState !== "complete")
-    await new Promise(resolve => addEventListener("load", resolve, {once: true}));
+function near(id) {
   return new Promise(resolve => {
     const seen = new IntersectionObserver(
       entries => {
