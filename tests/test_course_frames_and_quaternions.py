@@ -9,6 +9,7 @@ from scipy.spatial.transform import Rotation
 
 from robokin import Arm, Quaternion, Transform, deg, dh_links
 from robokin.course import book, check, variant
+from robokin.course.questions import chosen_option, filled
 
 X, Y, Z = np.eye(3)
 LAB = book.lab("frames_and_quaternions")
@@ -310,6 +311,55 @@ def test_slerp_test_may_pass_lists_and_must_try_large_rotations():
     less = check("frames_and_quaternions.3", compared((0, 1e-3, 30, 60, 120, 160)))
     assert less.mistake == "accepts: no way beyond 170°"
     assert check("frames_and_quaternions.3", compared(large, (0, 1))).mistake == "accepts: lerp"
+
+
+def test_refusal_shows_the_last_call_and_asks_about_nan_for_equal_rotations():
+    a = unit(np.array([1.0, 2, -1, 3]))
+    large = compared((30, 120))
+
+    def by_section_6(lead):  # 0/0 for equal rotations
+        beta = np.arccos(np.clip(a @ a, -1, 1))
+        with np.errstate(invalid="ignore"):
+            right = np.sin([0.75 * beta, 0.25 * beta]) @ [a, a] / np.sin(beta)
+        return large(lead) and bool(abs(lead(a, a, 0.25) - right).max() < 1e-6)
+
+    verdict = check("frames_and_quaternions.3", by_section_6)
+    told = " ".join(verdict.says)
+    assert verdict.mistake == "refuses every program" and "s = 0.25" in told
+    assert "a = [0.2582, 0.5164, -0.2582, 0.7746]" in told and "0/0" in told
+
+    def refuses(lead):
+        return large(lead) and False
+
+    told = " ".join(check("frames_and_quaternions.3", refuses).says)
+    assert "Your test last called it with a = [" in told and "0/0" not in told
+
+
+def test_test_that_refuses_a_correct_program_hears_of_a_wrong_one_that_it_accepts():
+    a, b = (Quaternion.from_angle_axis(x * deg, (0.6, 0, 0.8)).wxyz for x in (10, 130))
+
+    def half_way(lead):  # without the other sign, and only where nlerp is right
+        right = Quaternion(a).slerp(Quaternion(b), 0.5).wxyz
+        return bool(abs(np.asarray(lead(a, b, 0.5)) - right).max() < 1e-6)
+
+    verdict = check("frames_and_quaternions.3", half_way)
+    assert verdict.mistake == "refuses a correct program"
+    assert "the result with the other sign" in verdict.case
+    assert "It also accepts a wrong program, nlerp: It moves along the chord" in verdict.says[-1]
+
+
+@pytest.mark.parametrize(
+    ("question", "typed", "name"),
+    [
+        ("p2", 300, "the shift"), ("p2", 301, "the shift"), ("p2", 295, "the height"),
+        ("p2", 424, "a right angle"), ("p2", 460, "the chord"), ("p9", -60, "the other way"),
+        ("p9", 240, "four sixths"), ("p9", 0, "no rotation"), ("p9", 303, "the rest of a turn"),
+    ],
+)  # fmt: skip
+def test_typed_number_gets_the_reply_of_the_nearest_answer(question, typed, name):
+    found = book.find(f"frames_and_quaternions.{question}", "predictions")
+    _, options, right = filled(found)
+    assert options[chosen_option(found, options, right, typed)].name == name
 
 
 def test_different_axes_are_reported_with_different_numbers():

@@ -50,13 +50,15 @@ def p2() -> dict[str, Any]:
         "twice": 2 * SHIFT,
         "sine": SHIFT * np.sin(TURN * deg),
         "cosine": SHIFT * (1 - np.cos(TURN * deg)),
+        "shift": SHIFT,
+        "square": SHIFT * np.sqrt(2),
     }
     facts["metres"] = facts["chord"] * mm
     names = ["the chord", "no distance", "the arc", "both shifts"]
-    names += ["the height", "along x alone", "in metres"]
+    names += ["the height", "along x alone", "the shift", "a right angle", "in metres"]
     guesses = dict(zip(names, facts.values(), strict=True))
     right = nearest(guesses, np.linalg.norm((one - two)[:3, 3]))
-    return facts | {"turn": TURN, "shift": SHIFT, "right": right}
+    return facts | {"turn": TURN, "right": right}
 
 
 def p3() -> dict[str, Any]:
@@ -189,9 +191,13 @@ def p9() -> dict[str, Any]:
         "half": 180.0,
         "rest": 180 - way,
         "more": 360 + way,
+        "minus": -way,
+        "far": 360 - 2 * way,
+        "none": 0.0,
         "radians": (360 - way) * deg,
     }
     ways = "the rest of a turn", "as asked", "the arc"
-    names = *ways, "half a turn", "the rest of a half", "a turn more", "in radians"
+    names = *ways, "half a turn", "the rest of a half", "a turn more"
+    names += "the other way", "four sixths", "no rotation", "in radians"
     guesses = dict(zip(names, facts.values(), strict=True))
     return facts | {"right": nearest(guesses, turned)}
