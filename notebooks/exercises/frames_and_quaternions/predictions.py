@@ -196,8 +196,7 @@ def p9() -> dict[str, Any]:
         "none": 0.0,
         "radians": (360 - way) * deg,
     }
-    ways = "the rest of a turn", "as asked", "the arc"
-    names = *ways, "half a turn", "the rest of a half", "a turn more"
-    names += "the other way", "four sixths", "no rotation", "in radians"
+    names = ["the rest of a turn", "as asked", "the arc", "half a turn", "the rest of a half"]
+    names += ["a turn more", "the other way", "four sixths", "no rotation", "in radians"]
     guesses = dict(zip(names, facts.values(), strict=True))
     return facts | {"right": nearest(guesses, turned)}
