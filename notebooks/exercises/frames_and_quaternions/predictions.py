@@ -49,13 +49,11 @@ def p2() -> dict[str, Any]:
         "arc": SHIFT * TURN * deg,
         "twice": 2 * SHIFT,
         "sine": SHIFT * np.sin(TURN * deg),
-        "cosine": SHIFT * (1 - np.cos(TURN * deg)),
         "shift": SHIFT,
-        "square": SHIFT * np.sqrt(2),
     }
     facts["metres"] = facts["chord"] * mm
     names = ["the chord", "no distance", "the arc", "both shifts"]
-    names += ["the height", "along x alone", "the shift", "a right angle", "in metres"]
+    names += ["the height", "the shift", "in metres"]
     guesses = dict(zip(names, facts.values(), strict=True))
     right = nearest(guesses, np.linalg.norm((one - two)[:3, 3]))
     return facts | {"turn": TURN, "right": right}
@@ -190,13 +188,10 @@ def p9() -> dict[str, Any]:
         "arc": (360 - way) / 2,
         "half": 180.0,
         "rest": 180 - way,
-        "more": 360 + way,
         "minus": -way,
-        "far": 360 - 2 * way,
-        "none": 0.0,
         "radians": (360 - way) * deg,
     }
     names = ["the rest of a turn", "as asked", "the arc", "half a turn", "the rest of a half"]
-    names += ["a turn more", "the other way", "four sixths", "no rotation", "in radians"]
+    names += ["the other way", "in radians"]
     guesses = dict(zip(names, facts.values(), strict=True))
     return facts | {"right": nearest(guesses, turned)}
