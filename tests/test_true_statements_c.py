@@ -9,6 +9,7 @@ import numpy as np
 import pytest
 from conftest import NOTEBOOKS
 from scipy.optimize import fsolve
+from scipy.spatial.transform import Rotation
 from test_true_statements_b import ARM, asked, cells
 from test_true_statements_b import run as run_cells
 
@@ -20,6 +21,7 @@ from robokin import (
     Transform,
     blend,
     deg,
+    differentiate,
     lin,
     mm,
     quintic,
@@ -106,7 +108,9 @@ def test_dh_lengths_a_and_d_are_along_the_stated_axes():
 
 
 def test_average_of_two_rotations_shrinks_by_the_stated_factor():
-    assert r"shrinks by a factor of $\cos(\theta/2)$" in flat("01", "average")
+    words = flat("01", "average")
+    assert r"shrinks by a factor of $\cos(\theta/2)$, which is smaller" in words
+    assert r"$\ell = \cos(\theta/4)$: everything shrinks by a factor of $\cos^2(\theta/4)$" in words
     rng = np.random.default_rng(3)
     for theta in (20, 90, 150):
         axis = rng.normal(size=3)
@@ -115,6 +119,20 @@ def test_average_of_two_rotations_shrinks_by_the_stated_factor():
         other = Quaternion.from_angle_axis(theta * deg, axis / np.linalg.norm(axis)).as_matrix()
         sizes = np.linalg.svd((first + first @ other) / 2)[1]
         assert sizes == pytest.approx([1, *[np.cos(theta / 2 * deg)] * 2])
+        pair = [Rotation.from_matrix(each).as_quat() for each in (first, first @ other)]
+        length = np.linalg.norm(pair[0] + np.sign(pair[0] @ pair[1]) * pair[1]) / 2
+        assert length == pytest.approx(np.cos(theta / 4 * deg))
+        assert np.cos(theta / 2 * deg) < length**2
+
+
+def test_acceleration_of_a_jump_is_the_jump_divided_by_twice_the_step():
+    assert "the number is the jump in speed divided by twice the step" in flat(
+        "01", "line-jump-look"
+    )
+    for step in (0.01, 0.001):
+        t = step * np.arange(-20, 21)
+        greatest = differentiate(200 * np.clip(t, 0, None), t, 2).max()
+        assert greatest == pytest.approx(200 / (2 * step))
 
 
 # --- Labs 02 and 03 -------------------------------------------------------------------------------

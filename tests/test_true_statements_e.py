@@ -145,7 +145,8 @@ def test_each_step_of_the_derivation_of_rodrigues_formula_is_true():
     words = flat("01", "turning-why")
     rng = np.random.default_rng(6)
     assert r"$q\,v_\perp = c\,v_\perp + s\,n \times v_\perp$. This has no real part" in words
-    assert r"$v_\perp n = -n\,v_\perp$, we have $v_\perp q^* = q\,v_\perp$" in words
+    assert r"$v_\perp n = -n\,v_\perp$, we have $v_\perp q^* = v_\perp (c - s\,n)" in words
+    assert r"= (c + s\,n)\,v_\perp = q\,v_\perp$. So the factor on the right" in words
     assert r"$q\,v_\parallel = c\,v_\parallel - s\,(n \cdot v)$ has a real part" in words
     assert "1. By θ/2." in words and "3. At 720°. At 360°, $q$ is −1." in words
     for theta in [*rng.uniform(0, 4 * np.pi, 20), 2 * np.pi, 4 * np.pi]:
@@ -169,7 +170,8 @@ def test_the_pointers_agree_three_times_and_nlerp_is_faster_in_the_middle():
     says = "They agree at the start, halfway and at the end. In the middle, *nlerp* is faster;"
     assert says in flat("01", "slerp-look")
     s = np.linspace(0, 1, 121)
-    for goal in (60, 90, 110, 140, 170):
+    goals = cells("01")["pointers"].split("goals, share_of_way = np.array([")[1].split("]")[0]
+    for goal in map(float, goals.split(",")):
         end = about([0, 0, 1], goal * deg)
         even = [apart(np.eye(3), about([0, 0, 1], share * goal * deg)) for share in s]
         half = goal * deg / 2

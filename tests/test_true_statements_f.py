@@ -48,7 +48,9 @@ def about(axis, angle):
 
 def test_lerp_between_rotations_is_not_a_rotation():
     words = flat("01", "short")
-    assert "Between two different rotations, the result of lerp is not a rotation." in words
+    assert (
+        "Strictly between two different rotations, the result of lerp is not a rotation." in words
+    )
     assert (
         "If you divide it by its length (nlerp), it is one, but the speed is not constant." in words
     )

@@ -125,6 +125,8 @@ class Catch(Exercise):
         if refused:
             case = f"  a correct program that it refuses: {refused[0][0]}"
             says += self._refusal(answer, refused[0][1])
+            if named == "refuses a correct program" and slipped:
+                says.append(f"It also accepts a wrong program, {slipped[0][0]}: {slipped[0][1]}")
         else:
             case = f"  a wrong program that it accepts: {slipped[0][0]}"
         points = round((len(accepted) - len(refused) - len(slipped)) / len(accepted), 2)

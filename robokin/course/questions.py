@@ -90,9 +90,10 @@ def chosen_option(
             raise ValueError(f"choice: wanted one of {', '.join(letters)}, got {choice!r}")
         return letters.index(letter)
     typed = number(choice, "choice")
-    order = [right, *range(len(options))]
-    near = (k for k in order if _near(typed, float(options[k].text), prediction.within))
-    return next(near, -1)
+    values = [float(option.text) for option in options]
+    near = [k for k, value in enumerate(values) if _near(typed, value, prediction.within)]
+    nearest = min(near, key=lambda k: abs(typed - values[k]), default=-1)
+    return right if right in near else nearest
 
 
 def _near(x: float, value: float, within: float) -> bool:

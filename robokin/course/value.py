@@ -41,6 +41,8 @@ class Value(Exercise):
             return unanswered(name)
         if isinstance(answer, Mapping) and any(v is None or v is ... for v in answer.values()):
             return unanswered(name)
+        if isinstance(answer, tuple) and answer and all(v is None or v is ... for v in answer):
+            return unanswered(name)
         if self.given and who is None:
             line = 'Whose numbers should be used? Add your name: check(..., who="your name").'
             return Verdict(name, says=(line,))

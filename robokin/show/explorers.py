@@ -101,13 +101,14 @@ def joint_explorer(
     ]
     values = ", ".join(f"q{i + 1} {number(x, 0)}" for i, x in enumerate(start / sizes(arm)))
     flange = arm.fk(start).translation / size
+    move, moved = ("move", "moved") if arm.prismatic.any() else ("turn", "turned")
     summary = (
-        f"{arm.name} with joints that can be turned, at {values}: the flange is at "
+        f"{arm.name} with joints that can be {moved}, at {values}: the flange is at "
         f"({', '.join(number(x, facts[0][3]) for x in flange)}) {name}."
     )
     page = arm_page(
         arm,
-        f"{arm.name}: turn the joints",
+        f"{arm.name}: {move} the joints",
         summary,
         controls,
         start[None],

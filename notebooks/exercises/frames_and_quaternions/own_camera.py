@@ -1,7 +1,7 @@
 """The numbers, conditions and sentences of exercise 2 of frames and quaternions."""
 
 from collections.abc import Mapping
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 
@@ -11,18 +11,32 @@ from robokin.course.slips import METRES
 from robokin.course.told import apart, floats
 from robokin.course.variants import Numbers, dice
 
-from .shared import Floats, X, Z
+from .rolled import faults_of_lamp, faults_of_roll
+from .shared import NEAR, Floats, X, Z
 
-COUNT = 4
+COUNT = 6
 Given = Mapping[str, Any]
 Fault = tuple[str, str]
 Direction = tuple[str, Floats, Floats, str]  # name, axis, the direction it should have, sentence
-NEAR = 0.1 * deg
-UNITS = dict.fromkeys(("eye_x", "eye_y", "eye_z", "part_x", "part_y", "part_z"), ("mm", mm))
+PLACES = [f"{what}_{axis}" for what in ("eye", "part", "lamp") for axis in "xyz"]
+UNITS = dict.fromkeys(PLACES, ("mm", mm)) | {"roll": ("°", deg)}
+WANTED = "Wanted (my_camera, my_rolled, my_lamp)"
+
+
+class Answer(NamedTuple):
+    """The pose of the camera, its rotation after the roll, and the place of the lamp. The last two
+    are None while they are missing.
+    """
+
+    camera: Transform
+    rolled: Quaternion | None
+    lamp: Floats | None
 
 
 def given(who: Any) -> Numbers:
-    """The numbers of a student: a place for the camera, and a part below it and to the side."""
+    """The numbers of a student: a place for the camera, a part below it and to the side, a lamp on
+    the camera, and the angle of its roll.
+    """
     roll = dice("frames_and_quaternions", who)
 
     def signed(low: int, steps: int) -> int:
@@ -30,19 +44,85 @@ def given(who: Any) -> Numbers:
 
     eye = [signed(200, 16), signed(150, 16), 550 + 10 * roll.randrange(20)]
     part = [eye[0] + signed(250, 11), eye[1] + signed(120, 10), 10 * roll.randrange(16)]
-    return Numbers({k: x * mm for k, x in zip(UNITS, eye + part, strict=True)}, UNITS)
+    camera = upright(np.subtract(part, eye))
+    while True:
+        lamp = [signed(60, 7), signed(60, 7), 30 + 10 * roll.randrange(7)]
+        turn = (25 + 5 * roll.randrange(9)) * (1 - 2 * roll.randrange(2))
+        whole = camera @ Quaternion.from_angle_axis(turn * deg, Z)
+        others = whole.inverse() @ lamp, np.array(lamp)  # the results of two mistakes
+        if all(np.linalg.norm(whole @ lamp - other) > 20 for other in others):
+            break
+    values = [x * mm for x in eye + part + lamp] + [turn * deg]
+    return Numbers(dict(zip(UNITS, values, strict=True)), UNITS)
 
 
-def places(given: Given) -> tuple[Floats, Floats]:
-    values = np.array([given[key] for key in UNITS])
-    return values[:3], values[3:]
+def upright(look: Floats) -> Quaternion:
+    """The rotation of a camera that looks in this direction, level and upright."""
+    x, z = unit(np.cross(look, Z)), unit(look)
+    return Quaternion.from_matrix(np.transpose([x, np.cross(z, x), z]))
 
 
-def form(answer: Any, given: Any) -> Transform:
-    """Return the answer as one pose. ValueError: it is not one pose."""
+def places(given: Given) -> tuple[Floats, Floats, Floats]:
+    """The places of the camera and the part, and that of the lamp in the camera's coordinates."""
+    eye, part, lamp = np.array([given[key] for key in PLACES]).reshape(3, 3)
+    return eye, part, lamp
+
+
+def plain(answer: Any) -> Any:
+    """The pose of the camera, which is what the case shows."""
+    return answer[0] if isinstance(answer, (tuple, list)) and len(answer) == 3 else answer
+
+
+def form(answer: Any, given: Any) -> Answer:
+    """Return the answer in its parts. ValueError: a part is of another kind."""
+    if not isinstance(answer, (tuple, list)) or len(answer) != 3:
+        raise ValueError(f"{WANTED}, got {in_words(answer)}.")
+    camera, rolled, lamp = answer
+    if camera is ... or camera is None:
+        raise ValueError("my_camera is missing: the other two depend on it.")
+    return Answer(pose(camera), rotation(rolled), place(lamp))
+
+
+def rotation(answer: Any) -> Quaternion | None:
+    """Return the second part of the answer. ValueError: it is not one unit quaternion."""
+    if answer is ... or answer is None:
+        return None
+    wanted = "my_rolled: wanted one unit quaternion, a Quaternion or (w, x, y, z)"
+    if isinstance(answer, Quaternion) and answer.shape == ():
+        return answer
+    try:
+        row = floats(answer)
+    except (TypeError, ValueError):
+        raise ValueError(f"{wanted}, got {in_words(answer)}.") from None
+    if row.shape != (4,):
+        raise ValueError(f"{wanted}, got {in_words(answer)}.")
+    length = float(np.linalg.norm(row))
+    if not abs(length - 1) < 1e-3:
+        raise ValueError(f"{wanted}, but the length of yours is {length:.3f}.")
+    return Quaternion(row / length)
+
+
+def place(answer: Any) -> Floats | None:
+    """Return the third part of the answer. ValueError: it is not one finite place."""
+    if answer is ... or answer is None:
+        return None
+    wanted = "my_lamp: wanted one place (x, y, z) in metres"
+    try:
+        row = floats(answer)
+    except (TypeError, ValueError):
+        raise ValueError(f"{wanted}, got {in_words(answer)}.") from None
+    if row.shape != (3,):
+        raise ValueError(f"{wanted}, got {in_words(answer)}.")
+    if not np.isfinite(row).all():
+        raise ValueError("my_lamp contains NaN or infinity instead of a number.")
+    return row
+
+
+def pose(answer: Any) -> Transform:
+    """Return the first part of the answer. ValueError: it is not one pose."""
     if isinstance(answer, Transform) and answer.shape == ():
         return answer
-    wanted = "Wanted one Transform, the pose of the camera"
+    wanted = "my_camera: wanted one Transform, the pose of the camera"
     if isinstance(answer, Quaternion):
         raise ValueError(f"{wanted}. Your rotation has no position: use Transform(rotation, eye).")
     with np.errstate(all="ignore"):
@@ -66,7 +146,22 @@ def between(a: Floats, b: Floats) -> float:
     return float(np.arctan2(np.linalg.norm(np.cross(a, b)), a @ b))
 
 
-def faults(camera: Transform, given: Given) -> list[Fault]:
+def faults(answer: Answer, given: Given) -> list[Fault]:
+    """The faults of the camera, of its roll and of the lamp. The roll and the lamp are compared
+    with the student's own camera.
+    """
+    camera, rolled, lamp = answer
+    found = faults_of_camera(camera, given)
+    turn = Quaternion.from_angle_axis(given["roll"], Z)
+    own = camera.rotation
+    if not (np.isfinite(own.wxyz).all() and np.isfinite(camera.translation).all()):
+        return found
+    found += faults_of_roll(own, turn, rolled)
+    right = Transform(own @ turn if rolled is None else rolled, camera.translation)
+    return found + faults_of_lamp(camera, right, places(given)[2], lamp)
+
+
+def faults_of_camera(camera: Transform, given: Given) -> list[Fault]:
     """The faults of the position, of the direction of z, and of the directions of x and y."""
     back = camera.inverse()
     if found_in(camera, given) and not found_in(back, given):
@@ -76,7 +171,7 @@ def faults(camera: Transform, given: Given) -> list[Fault]:
 
 
 def found_in(camera: Transform, given: Given) -> list[Fault]:
-    eye, part = places(given)
+    eye, part, _ = places(given)
     found = [*misplaced(camera.translation, eye, part)]
     rotation = camera.rotation.as_matrix()
     if not np.isfinite(rotation).all():

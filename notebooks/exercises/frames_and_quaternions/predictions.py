@@ -49,14 +49,14 @@ def p2() -> dict[str, Any]:
         "arc": SHIFT * TURN * deg,
         "twice": 2 * SHIFT,
         "sine": SHIFT * np.sin(TURN * deg),
-        "cosine": SHIFT * (1 - np.cos(TURN * deg)),
+        "shift": SHIFT,
     }
     facts["metres"] = facts["chord"] * mm
     names = ["the chord", "no distance", "the arc", "both shifts"]
-    names += ["the height", "along x alone", "in metres"]
+    names += ["the height", "the shift", "in metres"]
     guesses = dict(zip(names, facts.values(), strict=True))
     right = nearest(guesses, np.linalg.norm((one - two)[:3, 3]))
-    return facts | {"turn": TURN, "shift": SHIFT, "right": right}
+    return facts | {"turn": TURN, "right": right}
 
 
 def p3() -> dict[str, Any]:
@@ -188,10 +188,10 @@ def p9() -> dict[str, Any]:
         "arc": (360 - way) / 2,
         "half": 180.0,
         "rest": 180 - way,
-        "more": 360 + way,
+        "minus": -way,
         "radians": (360 - way) * deg,
     }
-    ways = "the rest of a turn", "as asked", "the arc"
-    names = *ways, "half a turn", "the rest of a half", "a turn more", "in radians"
+    names = ["the rest of a turn", "as asked", "the arc", "half a turn", "the rest of a half"]
+    names += ["the other way", "in radians"]
     guesses = dict(zip(names, facts.values(), strict=True))
     return facts | {"right": nearest(guesses, turned)}

@@ -3,8 +3,11 @@
 import numpy as np
 from numpy.typing import NDArray
 
+from robokin import deg
+
 Floats = NDArray[np.float64]
 X, Y, Z = np.eye(3)
+NEAR = 0.1 * deg  # rotations that are closer count as equal
 MINUS = str.maketrans("-", "\N{MINUS SIGN}")
 
 

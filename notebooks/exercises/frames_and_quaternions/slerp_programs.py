@@ -1,13 +1,32 @@
-"""Helpers for the correct and wrong programs of exercise 3 of this lab."""
+"""Helpers for the correct and wrong programs of exercise 3 of this lab, and the sentence about the
+last call of a refused one.
+"""
+
+from typing import Any
 
 import numpy as np
 
 from robokin import Quaternion, deg
+from robokin.course.exercises import in_words
 from robokin.course.told import floats
 
 from .shared import Floats, angle, arc, chord, unit, weighted
 
 __all__ = ["Quaternion", "angle", "arc", "chord", "deg", "floats", "np", "unit", "weighted"]
+
+
+EQUAL = (
+    " Here a and b are the same rotation. The slerp formula is 0/0 for them: is the value with "
+    "which you compare NaN?"
+)
+
+
+def refusal(inputs: tuple[Any, ...], result: Any) -> str:
+    """The last inputs that a correct program was given, and its result."""
+    a, b, s = floats(inputs[0]), floats(inputs[1]), in_words(inputs[2])
+    called = f"Your test last called it with a = {in_words(a)}, b = {in_words(b)}, s = {s}."
+    equal = EQUAL if angle(a, near(a, b)) < 1e-6 else ""
+    return f"{called} It returned {in_words(floats(result))}, which is right.{equal}"
 
 
 def near(a: Floats, b: Floats) -> Floats:

@@ -222,8 +222,8 @@ const valid = (data, choice) =>
     : choice !== "" && choice.length < 31 && Number.isFinite(+choice);
 
 /**
- * The index of the chosen answer. For a typed number, this is an answer near it, preferably the
- * correct one. The result is -1 if there is none.
+ * The index of the chosen answer. For a typed number, this is the correct answer if the number is
+ * near it, otherwise the nearest answer. The result is -1 if none is near.
  * @param {PageQuestion} data
  * @param {string} choice
  */
@@ -233,9 +233,13 @@ function judged(data, choice) {
       at = data.options.findIndex(option => name && option.name === name);
     return at < 0 && letter ? LETTERS.indexOf(letter) : at;
   }
+  /** @type {(answer: PageAnswer) => number} */
+  const off = ({value = NaN}) => Math.abs(+choice - value);
   /** @type {(answer: PageAnswer) => boolean} */
-  const near = ({value = NaN}) => Math.abs(+choice - value) <= data.within * Math.abs(value) + 1e-9;
-  return near(data.options[data.right]) ? data.right : data.options.findIndex(near);
+  const near = answer => off(answer) <= data.within * Math.abs(answer.value ?? NaN) + 1e-9;
+  const {options, right} = data,
+    nearest = options.filter(near).sort((a, b) => off(a) - off(b))[0];
+  return near(options[right]) ? right : options.indexOf(nearest);
 }
 
 /**
