@@ -523,6 +523,20 @@ def test_corners_of_different_blends_differ_only_in_scale():
         assert np.allclose(5 * ways[0], ways[2], rtol=0, atol=1e-12)
 
 
+@pytest.mark.parametrize("times", [1, 2])
+@pytest.mark.parametrize("line", ["start_z", "goal_z"])
+def test_duration_from_the_height_of_one_line_is_named(line, times):
+    mine = variant("scara_motion", "Ada")
+    least, both = _least(mine)
+    seen = times * (mine[line] - mine["via_z"])
+    assert abs(np.sqrt(seen / both) - 1) > 0.05
+    b = 1.01 * least
+    design = {"blend": b, "duration": np.sqrt(seen / (b * mine["acceleration"]))}
+    verdict = check("scara_motion.3", design, who="Ada")
+    assert verdict.mistake == "the height of one line alone"
+    assert "from 2 h1 / T to \N{MINUS SIGN}2 h2 / T" in " ".join(verdict.says)
+
+
 @pytest.mark.parametrize(
     ("spoil", "name"),
     [
