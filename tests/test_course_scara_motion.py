@@ -2,6 +2,8 @@
 and the answers to the predictions are computed by another method.
 """
 
+import re
+
 import numpy as np
 import pytest
 
@@ -395,6 +397,11 @@ def _compared(within):
 def test_mistakes_in_limit_tests_are_named(answer, word):
     verdict = check("scara_motion.2", answer)
     assert not verdict.holds and verdict.case and word in verdict.mistake, verdict
+
+
+def test_a_case_of_the_limit_test_shows_lengths_as_booleans():
+    told = check("scara_motion.2", _forgetful).case
+    assert re.search(r"lengths = \[False, False, False, True\]", told), told
 
 
 @pytest.mark.parametrize("joint", [1, 2, 3])
