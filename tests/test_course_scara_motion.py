@@ -2,6 +2,8 @@
 and the answers to the predictions are computed by another method.
 """
 
+import re
+
 import numpy as np
 import pytest
 
@@ -397,6 +399,11 @@ def test_mistakes_in_limit_tests_are_named(answer, word):
     assert not verdict.holds and verdict.case and word in verdict.mistake, verdict
 
 
+def test_a_case_of_the_limit_test_shows_lengths_as_booleans():
+    told = check("scara_motion.2", _forgetful).case
+    assert re.search(r"lengths = \[False, False, False, True\]", told), told
+
+
 @pytest.mark.parametrize("joint", [1, 2, 3])
 def test_verdict_names_the_joint_that_is_never_tested(joint):
     def one_left_out(q, limits, lengths):
@@ -521,6 +528,20 @@ def test_corners_of_different_blends_differ_only_in_scale():
         ways = [(shape.position - via.position) for shape in shapes]
         assert np.allclose(2 * ways[0], ways[1], rtol=0, atol=1e-12)
         assert np.allclose(5 * ways[0], ways[2], rtol=0, atol=1e-12)
+
+
+@pytest.mark.parametrize("times", [1, 2])
+@pytest.mark.parametrize("line", ["start_z", "goal_z"])
+def test_duration_from_the_height_of_one_line_is_named(line, times):
+    mine = variant("scara_motion", "Ada")
+    least, both = _least(mine)
+    seen = times * (mine[line] - mine["via_z"])
+    assert abs(np.sqrt(seen / both) - 1) > 0.05
+    b = 1.01 * least
+    design = {"blend": b, "duration": np.sqrt(seen / (b * mine["acceleration"]))}
+    verdict = check("scara_motion.3", design, who="Ada")
+    assert verdict.mistake == "the height of one line alone"
+    assert "from 2 h1 / T to \N{MINUS SIGN}2 h2 / T" in " ".join(verdict.says)
 
 
 @pytest.mark.parametrize(

@@ -138,5 +138,7 @@ def in_words(value: Any) -> str:
 
 
 def _row(values: Any) -> str:
+    if values.dtype == bool:
+        return ", ".join(map(str, values))
     # without the rounding error of a zero, which differs from machine to machine
     return ", ".join(f"{x:.5g}" for x in np.round(np.asarray(values, float), 12) + 0.0)

@@ -79,6 +79,8 @@ WORDS: Mapping[str, str] = {
     "sampled": "{what}, of {samples} samples",
     "near": "The path passes {distance} from via.",
     "hardest": "Joint {joint} accelerates most: {value}.",
+    "hardestTurns": "Of the joints that turn, joint {joint} accelerates most: {value}.",
+    "hardestSlides": "Joint {joint} accelerates at up to {value}.",
     "closeUp": "Close-up of the corner. ",
     "fromStart": "from start",
     "toGoal": "to goal",

@@ -92,7 +92,7 @@ def faults(answer: Given, mine: Given) -> list[tuple[str, str]]:
     )
     fast, slow = a > most * 1.002, duration > 1.02 * shortest
     if fast or slow:
-        name, says = slip(duration / shortest, shortest) or (
+        name, says = slip(duration / shortest, shortest, mine) or (
             ("too fast", "A longer duration or a larger blend helps.")
             if fast
             else ("slower than needed", "A shorter duration is enough.")
@@ -101,10 +101,16 @@ def faults(answer: Given, mine: Given) -> list[tuple[str, str]]:
     return found
 
 
-def slip(ratio: float, shortest: float) -> tuple[str, str] | None:
+def slip(ratio: float, shortest: float, mine: Given) -> tuple[str, str] | None:
     """The likely slip if the duration is a known multiple of the shortest one, else None."""
     unit = "mm instead of m", "Use the same unit of length for heights and acceleration."
     whole = "T in the formula is the duration of the whole motion."
+    one = (
+        "the height of one line alone",
+        "You used the height of one line alone. The speed of the stroke changes from 2 h1 / T to "
+        "\N{MINUS SIGN}2 h2 / T, so the acceleration depends on h1 + h2.",
+    )
+    shares = [h / sum(over_via(mine)) for h in over_via(mine)]
     slips = {
         shortest: ("the root is forgotten", "You used T² as the duration. Take the square root."),
         1000**0.5: unit,
@@ -112,4 +118,5 @@ def slip(ratio: float, shortest: float) -> tuple[str, str] | None:
         0.5: ("half of the duration", whole),
         2.0: ("twice the duration", whole),
     }
+    slips |= {float(np.sqrt(k * share)): one for share in shares for k in (1, 2)}
     return next((told for factor, told in slips.items() if abs(ratio / factor - 1) < 0.003), None)

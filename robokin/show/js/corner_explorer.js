@@ -44,15 +44,17 @@ export function cornerExplorer(root, data) {
     ring = ringOf(data, state, corner, () => motion.now().near?.text ?? ""),
     small = armPicture(data, stage.ask);
   stage.frame.classList.add("rk-corner");
-  stage.side.parentElement?.before(told.node);
+  stage.side.parentElement?.before(told.node, stage.says);
   stage.side.after(small.canvas);
   stage.below.append(
     element("div", {class: "rk-columns"}, ...parts.inputs.rows),
-    element("div", {class: "rk-row"}, element("div", {}, stage.says, stage.hint), parts.copy),
+    element("div", {class: "rk-row"}, element("div", {}, stage.hint), parts.copy),
   );
   stage.handles.set([ring]);
   state.time = state.duration / 2; // the tool is at the corner
   const opening = motionOf(data, state);
+  // room for a sentence that disappears, so that the pictures stay in place
+  if (notes(data, opening).length) stage.says.style.minHeight = "1.4em";
   /** @type {?{drawn: Drawn, arms: Shown[]}} */
   let shown = null;
   stage.run(
@@ -75,7 +77,7 @@ export function cornerExplorer(root, data) {
           parts.sample(),
           before && {rows: before.a, gaps: before.gaps},
         );
-      for (const line of panel.lines) line.faint = worst >= 0 && line.joint !== worst;
+      for (const line of panel.lines) line.faint = worst.length > 0 && !worst.includes(line.joint);
       const curves = {panels: [panel], large: 0, names: []};
       shown = {drawn: [curves, found.t, scale(0, state.duration), state.time], arms};
       return arms;
@@ -167,39 +169,47 @@ function armPicture(data, ask) {
 }
 
 /**
- * The joint with the greatest acceleration; -1 if the speeds jump. Prismatic joints count only if
- * there are no revolute joints, since lengths cannot be compared with angles.
+ * The revolute and the prismatic joint with the greatest accelerations, since angles cannot be
+ * compared with lengths; none if the speeds jump.
  * @param {MotionPage} data
  * @param {Motion} motion
  * @param {Tops} tops
  */
 function hardest({arm}, {jumps}, {values: [, accelerations]}) {
-  if (jumps.length) return -1;
-  const turns = arm.prismatic.includes(false);
-  return accelerations.reduce(
-    (best, x, j) =>
-      !(turns && arm.prismatic[j]) && x > (accelerations[best] ?? -Infinity) ? j : best,
-    -1,
-  );
+  if (jumps.length) return [];
+  return [false, true]
+    .map(slides =>
+      accelerations.reduce(
+        (best, x, j) =>
+          arm.prismatic[j] === slides && x > (accelerations[best] ?? -Infinity) ? j : best,
+        -1,
+      ),
+    )
+    .filter(j => j >= 0);
 }
 
 /**
- * Sentences about the distance of the path from the via point, the greatest acceleration and jumps
- * in speed. The numbers of the first two are in bold.
+ * Sentences about the distance of the path from the via point, the greatest accelerations and jumps
+ * in speed. The numbers of all but the last are in bold.
  * @param {MotionPage} data
  * @param {Motion} motion
  * @param {Tops} tops
- * @param {number} worst
+ * @param {number[]} worst
  */
-function sentences({words, units}, {near, jumps}, {sure, values}, worst) {
+function sentences({arm, words, units}, {near, jumps}, {sure, values}, worst) {
   /** @type {HTMLElement[]} */
   const said = [];
   if (near) said.push(bold(words.near, "distance", {distance: near.text}));
-  if (worst >= 0) {
-    const value = values[1][worst],
-      {name} = units[worst],
+  for (const j of worst) {
+    const value = values[1][j],
+      {name} = units[j],
       most = `${number(value, decimalsOf(value))}${name === "°" ? "" : " "}${name}/s²`;
-    said.push(bold(words.hardest, "value", {joint: worst + 1, value: sure ? most : `≈ ${most}`}));
+    const sentence = arm.prismatic[j]
+      ? words.hardestSlides
+      : arm.prismatic.includes(true)
+        ? words.hardestTurns
+        : words.hardest;
+    said.push(bold(sentence, "value", {joint: j + 1, value: sure ? most : `≈ ${most}`}));
   }
   for (const {time} of jumps)
     said.push(element("span", {class: "rk-alarm"}, fill(words.jump, {time: number(time, 2)})));

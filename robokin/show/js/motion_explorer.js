@@ -16,7 +16,7 @@ import {scale} from "./ticks.js";
 import {frame} from "./target.js";
 
 /** @import {MotionPage, PagePose} from "./page.js" */
-/** @import {Tops} from "./blended.js" */
+/** @import {Motion, Tops} from "./blended.js" */
 /** @import {Drawn} from "./motion_parts.js" */
 /** @import {Stage} from "./stage.js" */
 
@@ -60,7 +60,7 @@ function motionExplorer(stage, data) {
       const panels = [q, v, a].map((rows, order) => panelOf(data, found, rows, order, i));
       const ticks = scale(0, state.duration);
       drawn = [{panels, large: +watch.value, names: []}, t, ticks, state.time];
-      numbers.tell(motion.tops(parts.held()));
+      numbers.tell(motion.tops(parts.held()), found);
       const passes = near ? [fill(data.words.near, {distance: near.text})] : [];
       stage.say([...passes, ...notes(data, found)].join(" "));
       stage.scene.things = STATIONS.map(name => frame(name, poseOf(state[name])));
@@ -92,12 +92,21 @@ function numberTable({arm, words, units, samples}) {
   };
   return {
     node: rows.node,
-    /** @param {Tops} tops */
-    tell({sure, values}) {
+    /**
+     * Where the speed of a joint jumps, it has no finite acceleration.
+     * @param {Tops} tops
+     * @param {Motion} motion
+     */
+    tell({sure, values}, {jumps}) {
+      const jump = units.map((_, j) => jumps.some(({joints}) => joints[j]));
       names.forEach((what, k) => {
         heads[k].textContent = sure ? what : fill(words.sampled, {what, samples});
       });
-      rows.set(values.map((row, order) => row.map((value, j) => cell(order, value, j))));
+      rows.set(
+        values.map((row, order) =>
+          row.map((value, j) => cell(order, order > 0 && jump[j] ? NaN : value, j)),
+        ),
+      );
     },
   };
 }
