@@ -199,6 +199,7 @@ def test_a_changed_number_changes_the_result_and_reset_gives_the_cell_back(lab):
 
 def test_an_error_names_the_line_of_the_cell(lab):
     shows = lab.run(POINT, "a = 1\n\nprint(a)\na / 0")
+    assert lab.says(POINT) == "Python stopped with an error."
     assert shows.startswith("1\n") and "cell, line 4" in shows
     assert "ZeroDivisionError: division by zero" in shows and "pyodide" not in shows.lower()
     shows = lab.run(POINT, "a = (1,\nb = 2")
@@ -235,6 +236,7 @@ def test_python_can_be_stopped_and_starts_again(lab):
     lab.button("elementary", "Stop").click()
     lab.done()
     assert "Stopped: Python was ended" in lab.says("elementary")
+    assert "the lab's, not yours" in lab.says("elementary") or not lab.shows("elementary")
     lab.run(POINT)
     assert "needs cell 4, which was stopped" in lab.says(POINT)
     assert "[data-running]" not in lab.page.content()
@@ -288,6 +290,13 @@ def test_a_view_appears_and_moves(lab):
     assert _seen(own) != seen
 
 
+def test_a_picture_that_cannot_be_drawn_again_is_not_called_the_readers(lab):
+    lab.run(POINT, "from robokin.show import figure\nfigure('one')")
+    assert lab.says(POINT) == "Done, but this page cannot draw the picture again."
+    lab.run(POINT, "a = 1")
+    assert lab.says(POINT) == "Done. This cell shows nothing."
+
+
 def test_questions_are_not_run(lab):
     asks = [c for c in lab.page.locator("div.cell").all() if c.locator(".rk-ask").count()]
     assert asks
@@ -302,6 +311,8 @@ def test_changes_survive_and_go_into_the_download(lab, site):
     ask.scroll_into_view_if_needed()
     ask.locator("input").fill("90")
     ask.get_by_role("button", name="This is my guess").click()
+    assert "Saved for your report." in ask.inner_text()
+    assert ask.get_by_role("button", name="Copy my guesses").count() == 0
     with lab.page.expect_download() as download:
         lab.page.get_by_role("button", name="Download my notebook").click()
     assert download.value.suggested_filename == f"{FRAMES}.ipynb"
@@ -309,7 +320,11 @@ def test_changes_survive_and_go_into_the_download(lab, site):
     stored = json.loads((site / f"{FRAMES}.ipynb").read_text(encoding="utf-8"))
     pairs = zip(mine["cells"], stored["cells"], strict=True)
     changed = [own for own, lab_cell in pairs if own != lab_cell]
-    sources = {cell["id"]: "".join(cell["source"]) for cell in changed}
+    judging = [
+        cell for cell in changed if re.search(r"(?m)^(check|progress)\(", "".join(cell["source"]))
+    ]
+    assert len(judging) > 2, "no stored verdict on another answer"
+    sources = {cell["id"]: "".join(cell["source"]) for cell in changed if cell not in judging}
     assert sources.pop(POINT) == text
     assert len(sources) == 1 and all('.p5", 90)' in source for source in sources.values())
     assert all(cell["outputs"] == [] for cell in changed)

@@ -353,7 +353,7 @@ def test_phi_loses_digits_as_stated():
 
 def test_unwrapping_matters_only_for_joint_6():
     words = flat("07", "choose-rule")
-    told = "This matters only for joint 6, with its range of 532°."
+    told = "along the path only for joint 6 with its 532°."
     assert told in words
     low, high = PUMA560.limits.T
     assert ((high - low) / deg > 360).tolist() == [False] * 5 + [True]

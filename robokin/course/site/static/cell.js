@@ -9,7 +9,8 @@ import {runScripts, shown} from "./outputs.js";
 /** @import {Output} from "./outputs.js" */
 /** @typedef {{place: string, id: string, source: string, asks: boolean}} CellData */
 
-const OLD_RESULT = "You changed this cell. The result below is that of the stored cell: press Run.";
+export const STORED_RESULT = "The result below is the lab's, not yours.";
+const OLD_RESULT = `You changed this cell: press Run. ${STORED_RESULT}`;
 const NEWER = "The lab has a newer text of this cell than the one that you changed.";
 
 export class Cell {

@@ -1,9 +1,10 @@
 // Runs the cells of a lab in its page. site.js loads this module if the page comes from a server;
 // conf.py writes the cells and the sizes of Python's files into the page.
 
-import {Cell, element} from "./cell.js";
+import {Cell, STORED_RESULT, element} from "./cell.js";
 import {notebook, offer} from "./download.js";
 import {elsewhere} from "./edits.js";
+import {FIGURE} from "./outputs.js";
 import {Ended, Python, mb} from "./python.js";
 import {Views} from "./views.js";
 
@@ -46,6 +47,7 @@ class Lab {
         complain,
       );
     });
+    keepGuesses();
     elsewhere((id, edit) => this.cells.find(each => each.data.id === id)?.follow(edit));
     this.introduce();
   }
@@ -98,8 +100,8 @@ class Lab {
       for (const cost of document.querySelectorAll(".rk-cost")) cost.remove();
       if (await this.prepare(cell)) {
         cell.say("Running …");
-        await this.execute(cell, true);
-        cell.say("This is your result.");
+        const outputs = await this.execute(cell, true);
+        cell.say(result(outputs));
       }
     } catch (error) {
       if (!(error instanceof Ended)) throw error;
@@ -130,7 +132,7 @@ class Lab {
     for (const [done, k] of needs.entries()) {
       const left = needs.length - done;
       cell.say(`Running ${left} ${left === 1 ? "cell" : "cells"} above …`);
-      if (await this.execute(cells[k], false)) continue;
+      if (fine(await this.execute(cells[k], false))) continue;
       cell.say(ABOVE, [["Show it", () => reveal(cells[k])]]);
       return false;
     }
@@ -139,28 +141,28 @@ class Lab {
 
   /**
    * Runs one cell and shows its result. If the cell was run only because another one needs it, and
-   * is unchanged, its stored result stays. Returns whether it ended without an error.
-   * @type {(cell: Cell, asked: boolean) => Promise<boolean>}
+   * is unchanged, its stored result stays.
+   * @type {(cell: Cell, asked: boolean) => Promise<Output[]>}
    */
   async execute(cell, asked) {
-    let result;
+    let outputs;
     try {
       const answer = await this.python.call("run", cell.text, this.cells.indexOf(cell));
-      result = /** @type {Result} */ (answer);
+      ({outputs} = /** @type {Result} */ (answer));
     } catch (error) {
       cell.stopped = true;
       throw error;
     }
-    const fine = !result.outputs.some(({output_type}) => output_type === "error");
-    if (asked || !fine || cell.text !== cell.data.source) cell.show(result.outputs);
-    this.views.learn(result.outputs);
-    return fine;
+    if (asked || !fine(outputs) || cell.text !== cell.data.source) cell.show(outputs);
+    this.views.learn(outputs);
+    return outputs;
   }
 
   /** Says why a cell has no result. @type {(cell: Cell, why: Ended) => void} */
   explain(cell, why) {
     cell.show(null);
-    if (why.how !== "check") return cell.say(why.message);
+    if (why.how !== "check")
+      return cell.say(cell.stored ? `${why.message} ${STORED_RESULT}` : why.message);
     const [, name] = /\bcheck\(\s*["']([\w.]+)["']/.exec(cell.text) ?? ["", "The answer"];
     cell.show([verdict(`${name}: does not hold.`, why.message)]);
     cell.say("Python was ended. It starts again with your next Run.");
@@ -171,6 +173,18 @@ class Lab {
   }
 }
 
+/** @param {Output[]} outputs */
+const fine = outputs => !outputs.some(({output_type}) => output_type === "error");
+
+/** What the outputs are. @param {Output[]} outputs */
+function result(outputs) {
+  if (!fine(outputs)) return "Python stopped with an error.";
+  if (!outputs.length) return "Done. This cell shows nothing.";
+  if (outputs.every(output => "data" in output && FIGURE in output.data))
+    return "Done, but this page cannot draw the picture again.";
+  return "This is your result.";
+}
+
 /** A verdict in the style of the engine's. @type {(first: string, sentence: string) => Output} */
 function verdict(first, sentence) {
   const made = element("div", "rk-verdict"),
@@ -178,6 +192,16 @@ function verdict(first, sentence) {
   bold.textContent = first;
   made.append(bold, document.createElement("br"), sentence);
   return {output_type: "display_data", data: {"text/html": made.outerHTML}};
+}
+
+/** The download has the guesses, so a question says that its guess is saved (prediction.js). */
+function keepGuesses() {
+  document.addEventListener("robokin-guess", event => {
+    event.preventDefault();
+    /** @type {CustomEvent<{tell: () => void}>} */ (event).detail.tell();
+  });
+  for (const root of document.querySelectorAll(".robokin-player"))
+    root.dispatchEvent(new CustomEvent("robokin-keeps"));
 }
 
 /** @param {File[]} files */

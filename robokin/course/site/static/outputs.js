@@ -8,8 +8,9 @@
  */
 /** @typedef {Stream | Failure | Shown} Output */
 
-const FIGURE = "application/x-robokin-figure";
-const NOT_YOURS = "The picture of the stored run: your numbers are not in it.";
+export const FIGURE = "application/x-robokin-figure";
+const NOT_YOURS =
+  "The lab's picture: your numbers are not in it. To draw yours, download your notebook.";
 
 /**
  * Returns an element with these outputs. `stored` has the stored outputs of the cell, whose

@@ -18,7 +18,7 @@ export class Ended extends Error {
   }
 }
 
-const AGAIN = "It starts again with your next Run, without the names that your cells have set.";
+const AGAIN = "Run any cell: Python starts again, and first runs the cells that this one needs.";
 
 /** Python, from the first call on. */
 export class Python {
