@@ -63,19 +63,6 @@ def test_speed_and_joint_limits_match_those_of_the_arm():
     assert panels[0]["near"] == [[[2, 1]]], "joint 3 exceeds its upper limit"
 
 
-def test_jumps_of_angles_and_of_lengths_are_both_labelled():
-    """An angle cannot be compared with a length, so neither hides the other, whichever number is
-    greater.
-    """
-    for turns, slides in ((40, 30), (30, 40)):
-        by = np.array([5 * deg, turns * deg, 0, slides * mm])
-        q = np.array([0.1, 0.5, 0.2, 0.05]) + abs(T - T[1000])[:, None] * by / 20
-        [[_, text]] = [
-            mark for mark in plot_joints(record(SCARA, T, q)).page["panels"][2]["marks"] if mark[1]
-        ]
-        assert text == f"speed jumps by {turns / 10:.1f} °/s and {slides / 10:.1f} mm/s"
-
-
 def test_missing_postures_and_jumps_break_the_curves():
     q = Q.copy()
     q[500:700] = np.nan

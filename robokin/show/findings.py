@@ -3,7 +3,6 @@ distance to a via point, jumps and gaps, and a summary in one sentence.
 """
 
 from collections.abc import Iterable, Sequence
-from functools import partial
 from typing import Any
 
 import numpy as np
@@ -11,7 +10,7 @@ import numpy as np
 from .._arrays import Bools, Floats, Ints
 from ..arms.arm import Arm, ClosedFormArm
 from ..arms.branches import unwrapped
-from ..motion.recording import Jump, Recording
+from ..motion.recording import Recording
 from ..units import mm
 from .camera import flange
 from .numbers import TIE, rounded, tidy
@@ -120,27 +119,6 @@ def spells(t: Floats, holds: Bools) -> str:
     return first if len(edges) == 2 else f"{first} and {len(edges) // 2 - 1} more times"
 
 
-def _amount(arm: Arm, units: Floats, length: str, value: float, j: int, per: str = "") -> str:
-    """Return the magnitude of a value of joint j, with its unit: one decimal or, for small values,
-    two significant digits.
-    """
-    space, value = "" if not arm.prismatic[j] and not per else " ", abs(value) / units[j]
-    decimals = int(np.clip(1 - np.floor(np.log10(value * (1 + TIE) or 1)), 1, 9))
-    unit = length if arm.prismatic[j] else "°"
-    return f"{tidy(value, decimals):.{decimals}f}{space}{unit}{per}"
-
-
-def _largest(arm: Arm, units: Floats, jump: Jump) -> list[int]:
-    """Return the joint that turns, and the joint that slides, with the largest jump: an angle
-    cannot be compared with a length.
-    """
-    size = abs(jump.by) / units
-    return [
-        int(np.where(arm.prismatic == slides, size, -1).argmax())
-        for slides in np.unique(arm.prismatic[size > 0])
-    ]
-
-
 def flaws(track: Recording, kept: Ints, units: Floats, length: str) -> Flaws:
     """Return the flaws of each motion that has any: the gaps between kept samples, the jumps to
     mark with their labels, and sentences.
@@ -150,21 +128,25 @@ def flaws(track: Recording, kept: Ints, units: Floats, length: str) -> Flaws:
     leaps: dict[int, list[Any]] = {}
     notes: dict[int, list[str]] = {}
     arm, count = track.arm, len(track.t)
-    amount = partial(_amount, arm, units, length)
+
+    def amount(value: float, j: int, per: str = "") -> str:
+        space, value = "" if not arm.prismatic[j] and not per else " ", abs(value) / units[j]
+        # One decimal or, for small values, two significant digits.
+        decimals = int(np.clip(1 - np.floor(np.log10(value * (1 + TIE) or 1)), 1, 9))
+        unit = length if arm.prismatic[j] else "°"
+        return f"{tidy(value, decimals):.{decimals}f}{space}{unit}{per}"
 
     for c, motion in enumerate(track.gaps):
         inside = np.add.reduceat(motion, kept[:-1]) if motion.any() else np.zeros(1)
         if inside.any():
             gaps[c] = np.flatnonzero(inside).tolist()
     for found, marks, what, per in (
-        (track.jumps, jumps, "speed jumps by ", "/s"),
-        (track.leaps, leaps, "", ""),
+        (track.jumps, jumps, "speed jumps by {by}", "/s"),
+        (track.leaps, leaps, "q{j} jumps by {by}", ""),
     ):
         for jump in found:
-            words = what + " and ".join(
-                ("" if what else f"q{j + 1} jumps by ") + amount(jump.by[j], j, per)
-                for j in _largest(arm, units, jump)
-            )
+            j = int((abs(jump.by) / units).argmax())  # the joint with the largest jump
+            words = what.format(j=j + 1, by=amount(jump.by[j], j, per))
             marks.setdefault(jump.motion[0], []).append([tidy(jump.time, 6), words])
     for c in range(len(track)):
         for j, excess in enumerate(track.excess[c].T):

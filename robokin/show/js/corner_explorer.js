@@ -44,17 +44,15 @@ export function cornerExplorer(root, data) {
     ring = ringOf(data, state, corner, () => motion.now().near?.text ?? ""),
     small = armPicture(data, stage.ask);
   stage.frame.classList.add("rk-corner");
-  stage.side.parentElement?.before(told.node, stage.says);
+  stage.side.parentElement?.before(told.node);
   stage.side.after(small.canvas);
   stage.below.append(
     element("div", {class: "rk-columns"}, ...parts.inputs.rows),
-    element("div", {class: "rk-row"}, element("div", {}, stage.hint), parts.copy),
+    element("div", {class: "rk-row"}, element("div", {}, stage.says, stage.hint), parts.copy),
   );
   stage.handles.set([ring]);
   state.time = state.duration / 2; // the tool is at the corner
   const opening = motionOf(data, state);
-  // room for a sentence that disappears, so that the pictures stay in place
-  if (notes(data, opening).length) stage.says.style.minHeight = "1.4em";
   /** @type {?{drawn: Drawn, arms: Shown[]}} */
   let shown = null;
   stage.run(
