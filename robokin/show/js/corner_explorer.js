@@ -187,8 +187,8 @@ function hardest({arm}, {jumps}, {values: [, accelerations]}) {
 }
 
 /**
- * Sentences about the distance of the path from the via point, the greatest accelerations and jumps
- * in speed. The numbers of all but the last are in bold.
+ * Sentences about the distance of the path from the via point, the greatest acceleration (of the
+ * revolute joints, if there are any) and jumps in speed. The numbers of the first two are in bold.
  * @param {MotionPage} data
  * @param {Motion} motion
  * @param {Tops} tops
@@ -198,15 +198,11 @@ function sentences({arm, words, units}, {near, jumps}, {sure, values}, worst) {
   /** @type {HTMLElement[]} */
   const said = [];
   if (near) said.push(bold(words.near, "distance", {distance: near.text}));
-  for (const j of worst) {
+  for (const j of worst.slice(0, 1)) {
     const value = values[1][j],
       {name} = units[j],
       most = `${number(value, decimalsOf(value))}${name === "°" ? "" : " "}${name}/s²`;
-    const sentence = arm.prismatic[j]
-      ? words.hardestSlides
-      : arm.prismatic.includes(true)
-        ? words.hardestTurns
-        : words.hardest;
+    const sentence = arm.prismatic.includes(true) ? words.hardestOfKind : words.hardest;
     said.push(bold(sentence, "value", {joint: j + 1, value: sure ? most : `≈ ${most}`}));
   }
   for (const {time} of jumps)
