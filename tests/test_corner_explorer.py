@@ -81,6 +81,7 @@ def shows(shown, fraction, kind="parabola", seconds=SECONDS):
 
 
 def box(shown):
+    shown.look()  # a key changes the box in the next frame
     return float(shown.rk.get_by_label("blend, exactly").input_value())
 
 
