@@ -177,7 +177,8 @@ def _written(path: Path, who: str) -> Note:
         lines = complaint.strip().removeprefix(f"{path}: ").splitlines()
         raise ValueError(lines[-1] if lines else f"it ended with status {child.returncode}.")
     page = path.parent / Path(said.strip().rpartition(":")[0]).name
-    data = report_data(page.read_text(encoding="utf-8")) or {"exercises": [], "predictions": []}
+    empty: dict[str, Any] = {"exercises": [], "predictions": [], "remarks": []}
+    data = report_data(page.read_text(encoding="utf-8")) or empty
     lines = [f"{page.name} is your report, next to this notebook. Look at it, and hand it in."]
     lines.append("In JupyterLab, press Trust HTML to make it move; any browser can open the file.")
     for each in data["exercises"]:
@@ -189,6 +190,7 @@ def _written(path: Path, who: str) -> Note:
     lines.append(f"{made} of {len(asked)} predictions made")
     if made < len(asked):  # a guess from the page waits while the kernel runs all cells
         lines[-1] += ". Is a guess missing? Run this cell once more."
+    lines += data["remarks"]
     note = Note("\n".join(lines))
     note.file = page.name
     return note
