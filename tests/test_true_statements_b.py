@@ -371,7 +371,7 @@ def direct(start, target=K1):
 def test_distances_are_proven_with_the_stated_numbers_of_intervals():
     made = run("10", "whole-explorer", "whole-setup", "whole-code")
     proven, H = made["proven"], made["H_motion"]
-    a, b = made["q0"], made["q1"]
+    a, b = made["q0"], made["q_end"]
     many, yes, edge, more, truth, no, few = said(
         "10",
         "whole-look",

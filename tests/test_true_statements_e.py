@@ -15,6 +15,7 @@ from test_true_statements_b import (
     direct,
     least_distance,
     lever_distance,
+    tries,
 )
 from test_true_statements_b import run as run_cells
 from test_true_statements_c import flat, numbers, shown
@@ -33,6 +34,7 @@ from robokin import (
     loader_arm,
     mm,
     spbu_arm,
+    three_lever,
 )
 from robokin.course import book
 from robokin.jobs.obstacles import in_quadrilateral, plan, via_path
@@ -681,16 +683,33 @@ def test_answers_to_the_questions_about_the_views_of_lab_10_are_true():
     pair, kept = said_pair("able", r"K2 = (.*?) m and K3 = (.*?) m\. .*clearance.* is (\S+) mm")
     assert least_distance(through(*pair), H) / mm == pytest.approx(kept, abs=0.06)
     H = np.array([1.5, 1.0])
-    text = r"as near as (\S+) mm before the gripper reaches K2, (\S+) mm .*, and (\S+) mm after K3"
+    text = r"gripper: it comes as near as (\S+) mm before K2, (\S+) mm .*, and (\S+) mm after K3"
     near = numbers(text, flat("10", "via-rule"))
     rule = via_path(ARM, START_10, K1_10, H)
     found = [least_distance(rule[k : k + 2], H) / mm for k in range(3)]
     assert found == pytest.approx(near, abs=0.06) and max(near) * mm < DISTANCE
-    on_AK = [lever_distance(q, H, slice(2, 3)) for q in rule]
-    assert on_AK == pytest.approx([lever_distance(q, H) for q in rule])
+    each = [gripper_distance(rule[k : k + 2], H) / mm for k in range(3)]
+    assert each == pytest.approx(near, abs=0.06), "a lever is nearer than the gripper"
     pair, kept = said_pair("via-rule", r"K2 = (.*?) m and K3 = (.*?) m, the clearance is (\S+) mm")
     assert least_distance(through(*pair), H) / mm == pytest.approx(kept, abs=0.06)
     assert kept * mm > DISTANCE
+
+
+def test_a_point_inside_lever_ak_can_be_nearest_as_stated():
+    text = r"H at \((.*?), (.*?)\) m, it is a point between A and K: as near as (\S+) mm "
+    x, y, lever, gripper = numbers(text + r"\(the gripper: (\S+) mm\)", flat("10", "via-rule"))
+    H = np.array([x, y])
+    assert tries("10", "via-explorer") == [(x, y)]
+    path = via_path(ARM, START_10, K1_10, H)
+    assert gripper_distance(path, H) / mm == pytest.approx(gripper, abs=0.06)
+    assert least_distance(path, H) / mm == pytest.approx(lever, abs=0.06)
+    s = np.linspace(0, 1, 20001)[:, None]
+    points = ARM.points(np.concatenate([a + s * (b - a) for a, b in pairwise(path)]))
+    A, K = points[:, 2], points[:, 3]
+    along = ((H - A) * (K - A)).sum(axis=1).clip(0, 1)  # the length of AK is 1
+    far = np.hypot(*(A + along[:, None] * (K - A) - H).T)
+    assert far.min() / mm == pytest.approx(lever, abs=0.06)
+    assert 0.1 < along[far.argmin()] < 0.9, "the nearest point is an end of AK"
 
 
 def said_pair(cell, pattern):
@@ -699,7 +718,7 @@ def said_pair(cell, pattern):
 
 
 def test_swept_place_and_the_minimum_between_samples_are_as_stated():
-    (place,) = re.findall(r"\((.*?)\) m, right of the line from K to K1", flat("10", "sweep-look"))
+    (place,) = re.findall(r"\((.*?)\) m, right of the line KK1", flat("10", "sweep-look"))
     H = np.array(eval(place))
     a, b = through()
     across = np.cross([*(np.array(K1_10) - (1.2, 1.7)), 0], [*(H - (1.2, 1.7)), 0])[2]
@@ -711,15 +730,43 @@ def test_swept_place_and_the_minimum_between_samples_are_as_stated():
     d = lever_distance(path[0] + s * (path[1] - path[0]), np.array([1.65, 1.1]))
     near = s[d < DISTANCE, 0]
     assert (np.diff(near) < 1e-3).all(), "there is more than one minimum"
-    told = numbers(r"From (\d+) to (\d+) %, about a seventh", flat("10", "whole-bound"))
+    told = numbers(r"1\.65, 1\.1\) m: too near from (\d+) to (\d+) %", flat("10", "whole-bound"))
     assert told == [round(100 * near[0]), round(100 * near[-1])]
-    assert np.ptp(near) == pytest.approx(1 / 7, abs=0.01)
-    hand = re.search(r"slider to (.*?) and 100 %", flat("10", "whole-hand"))[1]
+    hand = re.search(r"but not at (.*?) or 100 %", flat("10", "whole-hand"))[1]
     shares = [float(x) / 100 for x in hand.split(", ")] + [1.0]
     seen = [
         lever_distance(path[0] + x * (path[1] - path[0]), np.array([1.65, 1.1])) for x in shares
     ]
     assert min(seen) > DISTANCE, "a sample is too near, so the program notices"
+
+
+def test_view_below_the_question_about_samples_does_not_show_its_answer():
+    """The view opens with H elsewhere, where no lever comes too near, so the reader has to find a
+    place at which the samples miss the least distance.
+    """
+    (first,) = re.findall(r"\(1\.9, 0\.3\), \((.*?)\)\)", cells("10")["whole-explorer"])
+    H = np.array(eval(first))
+    path = direct(np.array([150, 120, 120]) * deg)
+    assert least_distance(path, H) > 2 * DISTANCE
+    question, _, _ = asked("obstacle_avoidance.p4")
+    assert f"at ({H[0]:g}, {H[1]:g}) m" not in question
+    assert "This is the same motion, with H elsewhere." in flat("10", "whole-hand")
+
+
+def test_bound_on_the_motion_of_unequal_levers_is_as_stated():
+    told = r"lengths (\S+) m \(OB\), (\S+) m \(BA\) and (\S+) m \(AK\)\. What is its \$m\$"
+    OB, BA, AK = numbers(told, flat("10", "real"))
+    term = r"(\S+)\\,\|\\Delta\\{}\|"
+    form = r" \+ ".join(term.format(name) for name in ("gamma", "beta", "alpha"))
+    carried = numbers(form, flat("10", "real"))
+    assert carried == pytest.approx([OB + BA + AK, BA + AK, AK])
+    arm = three_lever((OB, BA, AK))
+    rng, worst = np.random.default_rng(8), 0.0
+    for _ in range(300):
+        q, turn = rng.uniform(0, np.pi, 3), rng.uniform(-0.3, 0.3, 3)
+        moved = np.hypot(*(arm.points(q + turn) - arm.points(q)).T).max()
+        worst = max(worst, moved / (abs(turn) @ carried))
+    assert 0.5 < worst <= 1
 
 
 def test_planning_method_changes_at_the_stated_places():

@@ -118,7 +118,7 @@ def p3_view() -> Any:
 def p4_view() -> Any:
     fig = figure(
         "Distance of the nearest lever from the obstacle on the whole motion: a valley between "
-        "two of the seven dots reaches far below all of them.",
+        f"two of the {SEEN} dots reaches far below all of them.",
         height=3.2,
     )
     ax = fig.subplots()
@@ -167,12 +167,11 @@ def p5_view() -> Any:
 def p6_view() -> str:
     facts = p6()
     turns = ", ".join(
-        f"{name} {turn:.0f}°"
-        for name, turn in zip(("gamma", "beta", "alpha"), facts["turns"], strict=True)
+        f"{name} {turn:.0f}°" for name, turn in zip("γβα", facts["turns"], strict=True)
     )
     return (
-        f"The wave arrives after {facts['count']} steps of 10°. Followed back, they turn {turns} "
-        f"(turns in both directions counted): together {facts['sum']:.0f}°."
+        f"The wave arrives after {facts['count']} steps of 10°. On the path that we follow back, "
+        f"the turns are {turns} (both directions counted): together {facts['sum']:.0f}°."
     )
 
 
@@ -180,10 +179,9 @@ def p7_view() -> str:
     facts = p7()
     return (
         f"Of {facts['count']} tasks, with the circle of {facts['r']:.0f} mm: {facts['keep']} keep "
-        f"{facts['wanted']:.0f} mm, {facts['near']} come nearer, {facts['out']} out of "
-        f"reach.\nWith the circle of {WANTED / mm:.0f} mm a lever sweeps the obstacle in 47 tasks: "
-        f"none of these keeps the distance now; in 53 no lever does: {facts['keep']} of these "
-        "keep it now."
+        f"{facts['wanted']:.0f} mm, {facts['near']} come nearer, {facts['out']} are out of reach."
+        f"\nWith the circle of {WANTED / mm:.0f} mm, a lever sweeps the obstacle in 47 tasks, "
+        f"but in 53 no lever does. All {facts['keep']} are among these 53."
     )
 
 
