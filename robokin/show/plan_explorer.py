@@ -37,7 +37,7 @@ TITLE = "From K to K1, past an obstacle H"
 MEANT = (
     "Drag K, K1 and H, or move them with the arrow keys. The cube contains all postures in steps "
     "of 12° (the plan searches in finer ones). In the grey body, a lever is too near to H; the "
-    "squares are the wave of the search, the triangles are the target, and the line is the path."
+    "squares are the wave of the search (without a plan, there is none), the triangles are the target, and the line is the path."
 )
 WORDS: Mapping[str, str] = {
     "K": "K, where the gripper starts",
@@ -122,7 +122,7 @@ def _answer(arm: ThreeLeverArm, question: Question) -> Answer:
     lever, near, place = nearest_approach(arm, path, each, H)
     result, kept = _result(known, way, path, lever, near, distance)
     by_points = way == WAYS[1] or (way == WAYS[0] and known.way == "via points")
-    cube, most, curve = _cube(arm, start, K1, H, distance)
+    cube, most, curve = _cube(arm, known, start, K1, H, distance)
     return {
         "result": result,
         "words": known.words,
@@ -180,13 +180,14 @@ def _direct(arm: ThreeLeverArm, start: Floats, target: Floats, H: Floats) -> dic
 
 
 def _cube(
-    arm: ThreeLeverArm, start: Floats, K1: Floats, H: Floats, distance: float
+    arm: ThreeLeverArm, known: Plan, start: Floats, K1: Floats, H: Floats, distance: float
 ) -> tuple[Any, int, Floats]:
     """Return the result of `coarse_search` for the page: the cube (n, n, n), the number of steps in
     which the search reaches the target's curve (or ends without reaching it), and the curve (k, 3).
+    Without a plan, there are no steps: in steps of `STEP`, the search may find a way that is none.
     """
     steps, free, curve = coarse_search(arm, start, K1, H, distance, STEP)
-    reached = steps < NEVER
+    reached = (steps < NEVER) & known.found
     cube = np.where(reached, np.minimum(steps, AWAY - 1), np.where(free, AWAY, FORBIDDEN))
     return cube.astype(np.uint8), int(steps.max(initial=0, where=reached)), curve
 

@@ -249,7 +249,7 @@ def coarse_search(
     arm: ThreeLeverArm, q0: Floats, K1: Floats, H: Floats, distance: float, step: float
 ) -> tuple[Steps, Bools, Floats]:
     """Search for a path from q0 to K1, past the obstacle H (2,), in a grid over the full range of
-    all joints. Every step is proven to keep the distance, as in lab 10, section 6.
+    all joints. Every step is proven to keep the distance, as in lab 10, "More".
 
     Returns (steps, free, curve). `steps` (n, n, n) is the smallest number of steps to each posture,
     or `NEVER` where there is no path or the search ended earlier, on the target's curve. `free` (n,
@@ -283,7 +283,7 @@ def _proven_moves(
         (here, there), (q0, q1) = (
             (x[:-1], x[1:]) for x in (np.moveaxis(each, joint, 0) for each in (room, grid))
         )
-        # the bound of lab 10, section 4
+        # the bound of lab 10, section 3
         proven.append((here + there - carried[joint] * step) / 2 >= distance)
         open_ = ~proven[joint] & (here >= distance) & (there >= distance)
         asked.append((open_, q0[open_], q1[open_]))
