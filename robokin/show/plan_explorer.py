@@ -37,7 +37,8 @@ TITLE = "From K to K1, past an obstacle H"
 MEANT = (
     "Drag K, K1 and H, or move them with the arrow keys. The cube contains all postures in steps "
     "of 12° (the plan searches in finer ones). In the grey body, a lever is too near to H; the "
-    "squares are the wave of the search (without a plan, there is none), the triangles are the target, and the line is the path."
+    "squares are the wave of the search (without a plan, there is none), the triangles are the "
+    "target, and the line is the path."
 )
 WORDS: Mapping[str, str] = {
     "K": "K, where the gripper starts",
