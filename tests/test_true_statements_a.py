@@ -491,6 +491,20 @@ def test_no_circle_larger_than_the_stated_one_fits():
     assert not _fits(SCARA, number(r"At (\d+) mm and above, joint 2 passes", text) * mm)
 
 
+def test_pale_curves_of_the_circle_belong_to_the_stated_radius():
+    made, _ = run("04", "circles")
+    first = number(r"pale curves are those of the first value, (\d+) mm", sources("04")["limits"])
+    assert made["radii"][0] == first == made["radii"].min()
+
+
+def test_largest_circle_of_another_scara_touches_the_hole_and_the_full_reach():
+    for value in ("np.array([325, 225]) * mm", *tries("04", "carry-code", "levers")):
+        made, said = run("04", "target-code", "carry-code", name="levers", value=value)
+        assert re.findall(r"inside all limits: (\w+)", said) == ["False", "True"], value
+        touched = made["centre"] - made["largest"], made["centre"] + made["largest"]
+        assert touched == pytest.approx((made["other_hole"], made["levers"].sum()))
+
+
 def test_omega_is_not_used_in_lab_04():
     assert not any("omega" in text or "ω" in text for text in sources("04").values())
     assert r"\beta = 2\pi t/T" in sources("04")["follow"]

@@ -1,5 +1,5 @@
 """Cases, form and law of exercise 3; its text is in the Markdown file beside it, and its wrong
-programs also use `wrapped`.
+programs also use `deg`, `mm` and `wrapped`.
 """
 
 from typing import Any
@@ -13,7 +13,7 @@ from robokin.units import wrapped
 
 from .shared import MINUS, Floats
 
-__all__ = ["cases", "form", "law", "same", "wrapped"]
+__all__ = ["cases", "deg", "form", "law", "mm", "same", "wrapped"]
 Case = tuple[float, int, int, Floats]
 NAMES = (("°", deg), ("°", deg), ("°", deg), (" mm", mm))
 

@@ -1,5 +1,5 @@
 """Cases, form and law of exercise 1; its text is in the Markdown file beside it, and its wrong
-programs also use `corner` and `third`.
+programs also use `corner`, `third` and `wrapped`.
 """
 
 from typing import Any
@@ -13,7 +13,7 @@ from robokin.units import wrapped
 
 from .shared import MINUS, Floats, corner, shown, third
 
-__all__ = ["cases", "corner", "form", "law", "same", "third"]
+__all__ = ["cases", "corner", "form", "law", "same", "third", "wrapped"]
 Case = tuple[float, float, float, float, float]
 
 

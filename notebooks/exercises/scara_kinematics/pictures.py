@@ -83,6 +83,7 @@ def p5_view() -> Any:
     closed = np.linspace(HIGH[0], 2 * np.pi - HIGH[0], 40)
     x, y = 230 * np.cos(closed), 230 * np.sin(closed)
     fig.ax.fill([0, *x], [0, *y], color=AREA, zorder=0)
+    fig.ax.text(-130, 35, "past the stops\nof joint 1", ha="center", va="center")
     target = BEHIND.position[:2]
     for q, dashed in zip(SCARA.ik(BEHIND), (False, True), strict=True):
         joint_2 = elbow_at(q[0])
