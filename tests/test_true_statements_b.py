@@ -673,6 +673,15 @@ def test_elbow_formula_is_exact_at_every_point_but_one_and_jumps_there():
         rest = [x2**2 + y2**2 - link**2, (x2 - side * x) ** 2 + (y2 - y) ** 2 - link**2]
         assert [sp.simplify(each) for each in rest] == [0, 0]
     elbow = made["elbow_by_root"]
+    shown = re.search(
+        r"\$\$y_2 = (.*?), \\qquad x_2 = (.*?)\.\$\$", cells("12")["elimination-look"]
+    )
+    given = {"x_3": -0.7, "y_3": 0.9, "l": 1.1, "d": np.hypot(-0.7, 0.9), "sqrt": np.sqrt}
+    for name, formula in zip(("y_2", "x_2"), shown.groups(), strict=True):
+        for old, new in ((r"\,", "*"), ("^", "**"), (r"\frac", ""), ("}{", ")/("), ("\\", "")):
+            formula = formula.replace(old, new)
+        given[name] = eval(formula.replace("{", "(").replace("}", ")"), {}, given)
+    assert [given["x_2"], given["y_2"]] == pytest.approx(elbow(-0.7, 0.9, 1.1))
     for height in np.arange(0.4, 1.7, 0.2):
         left, right = (elbow(side * 1e-3, height, 1.0) for side in (-1, 1))
         assert left[0] * right[0] < 0, "the elbows should be on different sides"

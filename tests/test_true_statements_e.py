@@ -902,4 +902,13 @@ def test_between_two_jumps_the_arm_misses_the_tip():
         assert all(miss[after] < miss[before] for after, before in whole)
         greatest.append(miss.max())
     assert round(max(greatest), 2) == float(most)
-    assert "It jumps wherever $x_3^2$ passes a whole number," in flat("12", "casts-drag")
+    told = flat("12", "casts-drag")
+    assert "It jumps wherever $x_3^2$ passes a whole number," in told
+    assert "The curve shows this for the line at 1.6 m;" in told
+    exec(cells("12")["casts-drift"].replace("drift_figure(1.6)", "fig = drift_figure(1.6)"), made)
+    *thin, with_int, with_double = made["fig"].axes[0].lines
+    assert np.allclose([line.get_xdata()[0] ** 2 for line in thin], range(2, 13))
+    x, away = with_int.get_xdata(), with_int.get_ydata()
+    falls = np.flatnonzero(np.diff(away) < -0.02)
+    assert falls.tolist() == np.flatnonzero(np.diff(np.floor(x * x))).tolist()
+    assert f"{away.max():.2f}" == most and with_double.get_ydata().max() < 1e-12
