@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 
 from robokin import deg, three_lever
-from robokin.course import book, check, variant
+from robokin.course import answers, book, check, variant
 
 ARM = three_lever(1.0)
 PLAN = book.lab("three_levers").module("two_tasks")
@@ -255,6 +255,7 @@ def test_plan_of_strings_is_refused():
 
 def test_slightly_wrong_posture_is_reported_with_different_numbers():
     told = check("three_levers.1", lambda *case: levers(*case) + [3e-6, 0, 0]).case
+    assert re.search(r"\n  gamma, beta, alpha should be \(\S+, \S+, \S+\)°; yours, \(", told)
     place, off = re.search(r"gripper at \((.*)\) m, (.*) m from K", told).groups()
     assert float(off) > 0 and place.count(",") == 1
 
@@ -302,6 +303,19 @@ def test_test_must_start_from_different_postures():
     for _ in range(2):
         assert judged(np.ones((100, 3))) == "accepts: the previous posture of the first task"
     assert judged(rng.uniform(0.2, 3, (100, 3))) != judged(np.ones((100, 3)))
+
+
+def test_slow_test_is_told_that_its_own_time_is_up(monkeypatch):
+    monkeypatch.setattr(answers, "SECONDS", 0.3)
+
+    def slow(program):
+        while True:
+            for K, previous, _ in tasks(100):
+                program(K, previous)
+
+    verdict = check("three_levers.2", slow)
+    assert verdict.mistake == "never ends"
+    assert verdict.says[0].endswith("your whole test of this program: try fewer cases.")
 
 
 def test_test_must_check_every_angle():

@@ -90,16 +90,18 @@ def numbers(text):
     form = (
         r"gamma (.*)°, beta (.*)°, alpha (.*)°: S = (.*)° \+ (.*)° \+ (.*)° = (.*)°; the longest "
         r"turn is (.*)°\. The least S is (.*)°, at alpha = (.*)°: ([^.]*)\.(?: With the "
-        r"earlier (.*)°, the total is (.*)°\.)?"
+        r"earlier (.*)°, the total is (.*)°\. The longest turns add up to (.*)°\.)?"
     )
-    *values, where, before, total = re.fullmatch(form, text).groups()
-    return [float(x) for x in values], where, *[x and float(x) for x in (before, total)]
+    *values, where, before, total, longest = re.fullmatch(form, text).groups()
+    return [float(x) for x in values], where, *[x and float(x) for x in (before, total, longest)]
 
 
-def shows(shown, before, turned=None):
-    """Assert that the page shows what is computed here; return the posture and S in radians."""
+def shows(shown, before, turned=None, longest=0.0):
+    """Assert that the page shows what is computed here; return the posture and S in radians.
+    `turned` and `longest` are the sums of S and of the longest turns of the earlier targets.
+    """
     seen = shown.look()
-    values, where, earlier, total = numbers(seen.says)
+    values, where, earlier, total, largest = numbers(seen.says)
     code = shown.code(seen)
     K = complex(*[float(x) for x in re.search(r"family\(\((\S+), (\S+)\)", seen.code).groups()])
     q = posture(K, code["q"][2])
@@ -122,9 +124,8 @@ def shows(shown, before, turned=None):
     assert where.startswith(wanted)
     assert (earlier is None) == (turned is None)
     if turned is not None:
-        assert [earlier, total] == pytest.approx(
-            [turned / deg, (turned + change.sum()) / deg], abs=0.06
-        )
+        sums = [turned, turned + change.sum(), longest + change.max()]
+        assert [earlier, total, largest] == pytest.approx(np.array(sums) / deg, abs=0.06)
     heard = shown.rk.locator(".rk-curves").get_attribute("aria-label").replace("\u2212", "-")
     told = re.findall(r"A kink at (\S+)°, where (\w+) keeps its value\.", heard)
     kinks = kinks_of(K, before, ends)
@@ -200,18 +201,36 @@ def test_page_adds_up_the_angle_changes_of_two_targets(opened):
     first = shown.look()
     shown.rk.get_by_role("button", name="Least S").click()
     one, S = shows(shown, STAND)
+    longest = abs(one - STAND).max()
     shown.rk.get_by_role("button", name="Begin here").click()
     assert [shown.look().boxes[name] for name in "xy"] == list(TASKS[1])
-    shows(shown, one, S)
+    shows(shown, one, S, longest)
     shown.rk.get_by_role("button", name="Least S").click()
-    two, more = shows(shown, one, S)
+    two, more = shows(shown, one, S, longest)
+    longest += abs(two - one).max()
     assert (S + more) / deg == pytest.approx(225.9, abs=0.06)
     shown.rk.get_by_role("button", name="Begin here").click()  # there is no third target
-    _, rest = shows(shown, two, S + more)
+    _, rest = shows(shown, two, S + more, longest)
     assert rest < 1e-3
     shown.rk.get_by_role("button", name="Start again").click()
     again = shown.look()
     assert (again.says, again.boxes, again.pixels) == (first.says, first.boxes, first.pixels)
+
+
+def test_narrow_range_fills_the_width_of_the_curve(opened):
+    shown = opened(movement_explorer(ARM, SQUARE, (-2.0, 1.4)), ARM)
+    low, high = np.array(ARM.alpha_range((-2.0, 1.4))) / deg
+    curve, chosen = shown.rk.locator(".rk-curves").bounding_box(), []
+    for share in (0.3, 0.5, 0.7):
+        shown.page.mouse.click(curve["x"] + share * curve["width"], curve["y"] + 100)
+        chosen.append(shows(shown, SQUARE)[0][2] / deg)
+    assert high - low < 15 and low < chosen[0] and chosen[2] < high
+    assert (np.diff(chosen) > 2).all()
+
+
+def test_name_of_the_target_gives_its_place_in_millimetres(opened):
+    shown = opened(movement_explorer(ARM, SQUARE, (1.65, 1.05)), ARM)
+    assert shown.rk.locator(".rk-free").get_attribute("aria-label").endswith(", 1.650, 1.050 m")
 
 
 @pytest.mark.parametrize("arm", [ARM, UNEVEN, three_lever(4.0)], ids=["equal", "unequal", "large"])

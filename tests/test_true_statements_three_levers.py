@@ -4,14 +4,17 @@ import math
 
 import numpy as np
 import pytest
-from test_true_statements_b import ARM, cells
+from test_true_statements_b import ARM, asked, cells, race_of_the_cell, said
 from test_true_statements_b import run as run_cells
 from test_true_statements_c import flat, numbers
-from test_true_statements_g import family, gripper, least_from
+from test_true_statements_g import family, gripper, least_from, quietly
 
 from robokin import deg
+from robokin.course import answers
+from robokin.jobs.obstacles import clearance
+from robokin.jobs.redundancy import methods, race
 
-FIRST, SECOND = complex(2.4, 0.4), complex(-2.0, 1.4)
+FIRST, BEHIND = complex(2.4, 0.4), complex(-2.0, 1.4)
 STAND, SQUARE = np.array([60, 120, 120]) * deg, np.array([90, 90, 90]) * deg
 
 
@@ -35,10 +38,26 @@ def test_only_ring_1_keeps_the_distance_of_the_gripper_from_the_base():
 
 def test_two_levers_are_in_line_at_both_ends_of_the_range():
     words = flat("09", "range-formula")
+    assert "For this target, two levers are in line in each of them" in words
     assert "BA and AK at $\\alpha = 180°$, and OB and BA at the lowest $\\alpha$, where" in words
     K = complex(0.55, 0.35) * 3  # where the view opens
     low, high = ends(K)
     assert high == math.pi and family(K, low)[1] == pytest.approx(math.pi, abs=1e-6)
+
+
+def test_range_disappears_within_reach_as_section_3_says():
+    x, first, last = numbers(
+        r"set x to (\S+) and move the slider y from (\S+) down to (\S+): the curve plotted against "
+        r"\$\\alpha\$ gets shorter and disappears",
+        flat("09", "limits-look"),
+    )
+    wide = []
+    for y in np.linspace(first, last, 56):
+        K = complex(x, y)
+        assert 1 < abs(K) < 3, "no arm reaches it, whatever its limits are"
+        alphas = np.linspace(math.acos((5 - abs(K) ** 2) / 4), math.pi, 4001)
+        wide.append(sum(family(K, alpha)[0] >= 0 for alpha in alphas))  # else past 180 degrees
+    assert (np.diff(wide) <= 0).all() and wide[0] > 20 * max(wide[-1], 1) and wide[-1] == 0
 
 
 def test_with_b_on_the_other_side_beta_would_be_negative():
@@ -52,7 +71,7 @@ def test_with_b_on_the_other_side_beta_would_be_negative():
 
 def test_minimum_of_s_is_where_section_4_says():
     words = flat("09", "least-sweep")
-    far, behind = complex(2.8, 0.4), SECOND
+    far, behind = complex(2.8, 0.4), BEHIND
     assert "Far out, at (2.8, 0.4) m, S is lowest where its curve is flat." in words
     assert "Behind the base, at (−2.0, 1.4) m, it is lowest at an end of the range." in words
     for K in (far, behind):
@@ -64,6 +83,35 @@ def test_minimum_of_s_is_where_section_4_says():
         if K is far:
             near = [abs(family(K, q[2] + step) - SQUARE).sum() - S for step in (-1e-3, 1e-3)]
             assert max(near) < 1e-5, "not flat"
+
+
+def test_kink_of_gamma_has_the_least_sum_for_the_target_of_section_4():
+    made = quietly("09", "least-explorer", "least-code")
+    K = complex(*made["target"])
+    S, q = least_from(K, made["previous"])
+    assert [made["S_kink"], made["kink"]] == pytest.approx([S, q[2]], abs=1e-6)
+    assert family(K, made["kink"])[0] == pytest.approx(made["previous"][0], abs=1e-9)
+    assert made["sweep"](made["target"], made["previous"], made["width"])[1] > S + 0.1 * deg
+
+
+def test_share_of_moves_to_a_kink_holds_for_other_random_moves():
+    _, options, right = asked("three_levers.p6")
+    share, low, high, near, far = numbers(
+        r"in (\S+) % of \d+ random moves the least S is at a kink\..*with every angle between "
+        r"(\S+)° and (\S+)° and K (\S+) m to (\S+) m from O",
+        options[right].reason,
+    )
+    rng, kept, reached = np.random.default_rng(40), 0, 0
+    while reached < 300:
+        before = rng.uniform(low, high, 3) * deg
+        K = gripper(before)
+        if not near < abs(K) < far:
+            continue
+        place = K + 0.1 * np.exp(2j * np.pi * rng.random())
+        q, S = ARM.least((place.real, place.imag), before)
+        if np.isfinite(S):
+            reached, kept = reached + 1, kept + bool((abs(q - before) < 1e-6).any())
+    assert 100 * kept / reached == pytest.approx(share, abs=3)
 
 
 def test_only_one_sum_of_the_angles_has_a_minimum_inside_the_range():
@@ -87,7 +135,8 @@ def test_only_one_sum_of_the_angles_has_a_minimum_inside_the_range():
 
 def test_times_of_the_fastest_and_of_the_least_movement_are_as_stated():
     alpha, longest, time, least, later = numbers(
-        r"cross at \$\\alpha = (\S+)°\$\. The largest turn is (\S+)° there, which takes (\S+) s\. "
+        r"At \$\\alpha = (\S+)°\$\. Above it, \$\|\\Delta\\alpha\|\$ is larger; below it, "
+        r"\$\|\\Delta\\beta\|\$\. The largest turn is (\S+)° there, which takes (\S+) s\. "
         r"With the least S it is (\S+)°, which takes (\S+) s\.",
         flat("09", "cost-look"),
     )
@@ -96,6 +145,8 @@ def test_times_of_the_fastest_and_of_the_least_movement_are_as_stated():
     best = change.max(axis=1).argmin()
     assert [alphas[best] / deg, change[best].max()] == pytest.approx([alpha, longest], abs=0.05)
     assert change[best, 1] == pytest.approx(change[best, 2], abs=0.02), "beta and alpha cross"
+    assert (change[best + 10 :, 2] > change[best, 2]).all(), "alpha turns more above it"
+    assert (change[: best - 10, 1] > change[best, 1]).all(), "beta turns more below it"
     turned = abs(least_from(FIRST, STAND)[1] - STAND).max() / deg
     assert turned == pytest.approx(least, abs=0.05)
     assert [change[best].max() / 30, turned / 30] == pytest.approx([time, later], abs=0.005)
@@ -104,26 +155,31 @@ def test_times_of_the_fastest_and_of_the_least_movement_are_as_stated():
 def test_best_first_posture_costs_what_section_6_says():
     words = flat("09", "greed-hand")
     (greedy,) = numbers(r"the joints of the greedy arm turn by (\S+)° in total", words)
-    kink, now, then, total, less, more = numbers(
-        r"keeps its value, (\S+)°\. The first task then costs (\S+)° and the second (\S+)°, "
-        r"(\S+)° in total\. The greedy arm turns (\S+)° less in the first task and (\S+)° more in "
-        r"the second",
+    best, now, then, total, less, more = numbers(
+        r"Take α = (\S+)°\. The first task then costs (\S+)° and the second (\S+)°, (\S+)° in "
+        r"total, because β almost keeps its value in the second task\. The greedy arm turns (\S+)° "
+        r"less in the first task and (\S+)° more in the second",
         words,
     )
+    targets = r"\[\(2\.4, 0\.4\), \((\S+), (\S+)\)\]"
+    second = complex(*said("09", "cost-explorer", targets))
+    assert second == complex(*said("09", "greed-run", f"pair = {targets}"))
     one, q = least_from(FIRST, STAND)
-    two, _ = least_from(SECOND, q)
+    two, _ = least_from(second, q)
     assert (one + two) / deg == pytest.approx(greedy, abs=0.05)
     alphas = np.linspace(*ends(FIRST), 241)
     ways = [(abs(family(FIRST, a) - STAND).sum(), family(FIRST, a)) for a in alphas]
-    sums = np.array([cost + least_from(SECOND, q)[0] for cost, q in ways])
-    assert alphas[sums.argmin()] / deg == pytest.approx(kink, abs=0.4) and kink == 120
-    first = family(FIRST, kink * deg)
-    cost, rest = abs(first - STAND).sum(), least_from(SECOND, first)[0]
+    sums = np.array([cost + least_from(second, q)[0] for cost, q in ways])
+    assert alphas[sums.argmin()] / deg == pytest.approx(best, abs=0.4)
+    assert abs(best - STAND[2] / deg) > 5, "the view starts with the answer"
+    first = family(FIRST, best * deg)
+    cost, (rest, then_q) = abs(first - STAND).sum(), least_from(second, first)
+    assert abs(then_q - first)[1] < 0.1 * deg, "beta does not keep its value"
     assert [cost / deg, rest / deg, (cost + rest) / deg] == pytest.approx(
         [now, then, total], abs=0.05
     )
-    assert (cost + rest) / deg < sums.min() / deg + 0.01
-    assert [(cost - one) / deg, (two - rest) / deg] == pytest.approx([less, more], abs=0.5)
+    assert (cost + rest) / deg < sums.min() / deg + 0.1
+    assert [(cost - one) / deg, (two - rest) / deg] == pytest.approx([less, more], abs=0.05)
 
 
 def test_both_arms_of_the_player_differ_for_the_stated_targets():
@@ -136,6 +192,23 @@ def test_both_arms_of_the_player_differ_for_the_stated_targets():
     opened = (planned - greedy)[apart]
     assert (opened[:, 1] > 20 * deg).all() and (opened[:, 2] < -20 * deg).all()
     assert "quantities=" in cells("09")["greed-player"]
+
+
+def test_random_choice_stays_away_from_the_obstacle_in_the_tasks_that_it_solves():
+    words = flat("09", "race-look")
+    assert "In the tasks that it solves, random choice never comes closer than $L/7$" in words
+    places, obstacle, seed = race_of_the_cell(100)
+    rules = {"random choice": methods(obstacle, seed=seed)["random choice"]}
+    made = race(rules, ARM, places, STAND)["random choice"]
+    away = clearance(ARM, np.vstack([STAND, made.postures]), obstacle).min(axis=-1)
+    assert away[~made.failed].min() >= 1 / 7 > away[made.failed].min()
+
+
+def test_check_of_exercise_2_stops_after_the_stated_time():
+    (seconds,) = numbers(
+        r"a test that takes more than (\S+) s for one program", flat("09", "yourturn-2")
+    )
+    assert seconds == answers.SECONDS
 
 
 def test_weights_reduce_the_change_of_gamma_by_the_stated_amount():

@@ -17,6 +17,7 @@ RAISES = (
     "It never returns a result. A test that ignores errors accepts it, although an error shows "
     "that the program is wrong.",
 )
+SLOW = "That is your whole test of this program: try fewer cases."
 Program = Callable[..., Any]
 
 
@@ -180,6 +181,7 @@ def _trouble(outcome: Outcome, said: Any) -> tuple[str, str] | None:
     if not isinstance(said, Outcome):
         return None
     if outcome.name:
-        return outcome.name, outcome.says
+        slow = outcome.name == "never ends"
+        return outcome.name, f"{outcome.says} {SLOW}" if slow else outcome.says
     line = f"Your test has to return True or False; it returns {in_words(outcome.result)}."
     return "another kind or shape", line

@@ -30,7 +30,8 @@ SAYS: Mapping[str, str] = {
     "{least}°, at alpha = {best}°.",
     "termSays": "gamma {gamma}°, beta {beta}°, alpha {alpha}°: S = {terms} = {S}°; the longest "
     "turn is {longest}°. The least S is {least}°, at alpha = {best}°: {why}",
-    "sumSays": " With the earlier {before}°, the total is {all}°.",
+    "sumSays": " With the earlier {before}°, the total is {all}°. The longest turns add up to "
+    "{longest}°.",
     "stays": "{names} keeps its value.",
     "stay": "{names} keep their values.",
     "atEnd": "an end of its range.",

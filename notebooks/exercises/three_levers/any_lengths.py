@@ -87,26 +87,25 @@ def law(case: Case, yours: Any, wanted: Any) -> str | None:
             return None
         KO, KB = np.hypot(*point), third(lengths[1], lengths[2], alpha)
         return (
-            f"should be NaN: OB = {lengths[0]:g} m, KB = {KB:.3f} m and KO = {KO:.3f} m form "
-            "no triangle"
+            f"should be NaN: with alpha = {alpha / deg:.2f}°, OB = {lengths[0]:g} m, KB = "
+            f"{KB:.3f} m and KO = {KO:.3f} m form no triangle"
         )
-    told = ", ".join(f"{x / deg:.2f}°" for x in wanted)
+    told, yours_told = apart(wanted / deg, yours / deg, 2)
     if np.isnan(yours).any():
-        return f"should be gamma, beta, alpha = {told}: this posture exists"
+        return f"gamma, beta, alpha should be ({told})°: this posture exists"
     gripper = chain(yours, lengths)[3]
     miss = float(np.hypot(*(gripper - point)))
     if miss > 1e-6:
         is_at, off = apart(gripper, point, 3)[0], apart(miss, 0, 3)[0]
         return (
-            f"should be gamma, beta, alpha = {told}; yours puts the gripper at ({is_at}) m, {off} "
-            "m from K"
+            f"gamma, beta, alpha should be ({told})°; yours, ({yours_told})°, puts the gripper at "
+            f"({is_at}) m, {off} m from K"
         )
     if abs(wrapped(yours - wanted)).max() <= 1e-5:
         return None
-    told, yours_told = apart(wanted / deg, yours / deg, 2)
     return (
-        f"should be gamma, beta, alpha = ({told})°; yours, ({yours_told})°, reaches K, too, but "
-        "it is a different posture"
+        f"gamma, beta, alpha should be ({told})°; yours, ({yours_told})°, reaches K, too, but it "
+        "is a different posture"
     )
 
 

@@ -16,6 +16,7 @@ UPRIGHT, BENT = np.array([90, 180, 180]) * deg, np.array([90, 180, 120]) * deg  
 NEAR, FAR = 1.5, 2.8  # p2: m
 # p4: radius in m around O, and alpha; gamma stays below 180° from 30° to 130°
 RING, SAMPLE = 1.8, 80 * deg
+ANGLES, DISTANCES = (30.0, 170.0), (1.2, 2.7)  # p6: degrees, m, where the moves begin
 BEHIND, BEHIND_KO = 150.0, 2.0  # p5: degrees, m
 COARSE, FINE = 1.0, 0.1  # p7: degrees
 STAND, TARGET = np.array([60, 120, 120]) * deg, np.array([2.4, 0.4])  # p8
@@ -108,10 +109,10 @@ def p5() -> dict[str, Any]:
 def p6() -> dict[str, Any]:
     """Moves from random postures to points 10 cm away from the gripper."""
     rng = np.random.default_rng(6)
-    before = rng.uniform(30, 170, (900, 3)) * deg
+    before = rng.uniform(*ANGLES, (900, 3)) * deg
     gripper = ARM.points(before)[:, 3]
     far = np.hypot(*gripper.T)
-    keep = (far > 1.2) & (far < 2.7)
+    keep = (far > DISTANCES[0]) & (far < DISTANCES[1])
     places = gripper[keep] + 0.1 * direction(rng.uniform(0, 2 * np.pi, int(keep.sum())))
     before = before[keep]
     q, S = ARM.least(places, before)
@@ -133,6 +134,8 @@ def p6() -> dict[str, Any]:
         "none": 100 * shares[0],
     }
     facts |= {"two": int((still == 2).sum())}
+    facts |= dict(zip(("lowest", "highest"), ANGLES, strict=True))
+    facts |= dict(zip(("nearest", "farthest"), DISTANCES, strict=True))
     facts |= {"squares": 100 * float((change > 0.001 * deg).all(axis=-1).mean())}
     return facts | {"right": ("all three", "two", "one", "none")[int(np.argmax(shares))]}
 

@@ -12,7 +12,7 @@ import {
   upright,
   write,
 } from "./canvas.js";
-import {degrees} from "./turns.js";
+import {degrees, radians} from "./turns.js";
 
 /** @import {Context, Pixel} from "./canvas.js" */
 /** @import {Kink} from "./levers.js" */
@@ -49,8 +49,17 @@ const MARGIN = {left: 44, right: 54, top: 26, bottom: 34}, // px
 export const total = changes => changes.reduce((sum, change) => sum + change, 0);
 
 /**
- * Draws S. The axis of alpha always covers the limits of its joint, so that the reader sees the
- * range grow and shrink.
+ * The part of the axis of alpha that shows the range, and a little on both sides.
+ * @param {Costs} costs
+ */
+const closeUp = ({low, high, limits: [first, last]}) => {
+  const gap = Math.max((high - low) / 10, radians(1));
+  return [Math.max(first, low - gap), Math.min(last, high + gap)];
+};
+
+/**
+ * Draws S. With terms, the axis of alpha covers only the range, so that the reader sees the shape of
+ * S. Otherwise it covers the limits of the joint, so that the reader sees the range grow and shrink.
  * @param {HTMLCanvasElement} canvas
  * @param {Look} look
  * @param {?Costs} costs
@@ -62,8 +71,9 @@ export function drawCosts(canvas, look, costs) {
   const [g, w, h] = ready;
   write(g, look.title, 6, 14, colors.ink, 12, "left", "600");
   if (!costs) return null;
-  const {low, high, alpha, limits, best, kinks, at} = costs,
-    whole = look.terms.length > 0;
+  const {low, high, alpha, best, kinks, at} = costs,
+    whole = look.terms.length > 0,
+    limits = whole ? closeUp(costs) : costs.limits;
   const alphas = Array.from({length: 121}, (_, i) => low + ((high - low) * i) / 120);
   const corners = [...alphas, best[2], ...(whole ? kinks.map(kink => kink.alpha) : [])];
   const samples = corners.sort((a, b) => a - b),
@@ -96,7 +106,7 @@ export function drawCosts(canvas, look, costs) {
   upright(g, x(alpha), top, bottom, colors.ink, 1.4);
   diamond(g, [x(best[2]), y(total(costs.fewest))]);
   spot(g, [x(alpha), y(total(costs.changes))], 4.5, colors.accent);
-  drawAngles(plot, costs);
+  drawAngles(plot, {...costs, limits});
   write(g, look.axis, (plot.left + plot.right) / 2, bottom + 28, colors.soft, 11, "center");
   return {
     alphaAt: px =>

@@ -32,7 +32,8 @@ export const explore = (id, data) =>
 
 /**
  * The reader's settings: the point, the previous posture, the free angle and the arm; also the
- * index of the target, and the sum of the angle changes for all targets before it.
+ * index of the target, and for all targets before it the sum of the angle changes and the sum of
+ * the largest changes.
  * @typedef {object} State
  * @property {Point} place
  * @property {number[]} before
@@ -40,6 +41,7 @@ export const explore = (id, data) =>
  * @property {ThreeLeverArm} arm
  * @property {number} task
  * @property {number} turned
+ * @property {number} longest
  */
 
 /** The first settings, except for the arm. @param {LeversExplorer} data */
@@ -49,6 +51,7 @@ const opening = ({targets, q}) => ({
   alpha: q[2],
   task: 0,
   turned: 0,
+  longest: 0,
 });
 
 /**
@@ -125,6 +128,7 @@ function buttons(stage, data, state, costs) {
     }),
     button(says.begin, ({q, changes}) => {
       state.turned += total(changes);
+      state.longest += Math.max(...changes);
       state.before = [...q];
       state.task += 1;
       if (state.task < targets.length) state.place = [...targets[state.task].place];
@@ -214,7 +218,7 @@ const inDegrees = angle => number(degrees(angle), 1);
  * @param {State} state
  * @param {Costs} costs
  */
-function told({words: says, curve}, {task, turned}, {q, changes, best, fewest, low, high}) {
+function told({words: says, curve}, state, {q, changes, best, fewest, low, high}) {
   const [gamma, beta, alpha] = q.map(inDegrees),
     least = {best: inDegrees(best[2]), least: inDegrees(total(fewest))},
     S = inDegrees(total(changes));
@@ -227,11 +231,23 @@ function told({words: says, curve}, {task, turned}, {q, changes, best, fewest, l
       ? says.atEnd
       : says.isLevel;
   const terms = changes.map(change => `${inDegrees(change)}\u00B0`).join(" + ");
-  const longest = inDegrees(Math.max(...changes));
-  const sum = task ? {before: inDegrees(turned), all: inDegrees(turned + total(changes))} : null;
+  const [all, largest] = [total(changes), Math.max(...changes)];
+  const sums = {
+    before: inDegrees(state.turned),
+    all: inDegrees(state.turned + all),
+    longest: inDegrees(state.longest + largest),
+  };
   return (
-    fill(says.termSays, {gamma, beta, alpha, S, terms, longest, ...least, why}) +
-    (sum ? fill(says.sumSays, sum) : "")
+    fill(says.termSays, {
+      gamma,
+      beta,
+      alpha,
+      S,
+      terms,
+      longest: inDegrees(largest),
+      ...least,
+      why,
+    }) + (state.task ? fill(says.sumSays, sums) : "")
   );
 }
 

@@ -92,7 +92,7 @@ export function pointHandle({words, unit, targets}, state) {
     look: "rk-free",
     at: () => state.place,
     value() {
-      const [x, y] = state.place.map(each => number(each / unit.size, 1));
+      const [x, y] = state.place.map(each => number(each / unit.size, unit.name === "m" ? 3 : 1));
       return `${x}, ${y} ${unit.name}`;
     },
     grab(camera) {
