@@ -270,6 +270,20 @@ def test_a_check_judges_the_readers_answer(lab):
     assert "frames_and_quaternions.1: does not hold." in lab.run(CHECK)
 
 
+def test_hints_and_then_the_solution_stand_beside_the_verdict(lab):
+    verdict = lab.run(CHECK)
+    exercise = book.find("frames_and_quaternions.1", "exercises")
+    helps = lab.cell(CHECK).locator(".rk-helps > *")
+    for n, text in enumerate(exercise.hints, 1):
+        lab.button(CHECK, "Hint").click()
+        assert helps.count() == n and text in helps.nth(n - 1).inner_text()
+    assert lab.button(CHECK, "Hint").count() == 0
+    lab.button(CHECK, "Solution").click()
+    assert SOLUTION.strip() in helps.last.inner_text()
+    assert lab.button(CHECK, "Solution").count() == 0 and lab.shows(CHECK) == verdict
+    assert lab.button(TABLE, "Hint").count() == 0
+
+
 def test_an_answer_that_never_ends_gets_the_engines_sentence(lab):
     lab.run(TABLE, "def seen_from_flange(table, q, base_part):\n    while True:\n        pass")
     shows = lab.run(CHECK)

@@ -7,7 +7,15 @@ import {runScripts, shown} from "./outputs.js";
 /** @import {Editor} from "./editor.js" */
 /** @import {Edit} from "./edits.js" */
 /** @import {Output} from "./outputs.js" */
-/** @typedef {{place: string, id: string, source: string, asks: boolean}} CellData */
+/**
+ * @typedef {object} CellData
+ * @property {string} place
+ * @property {string} id
+ * @property {string} source
+ * @property {boolean} asks
+ * @property {boolean} reports
+ * @property {string[]} helps  the hints and then the solution of the exercise that it checks
+ */
 
 export const STORED_RESULT = "The result below is the lab's, not yours.";
 const OLD_RESULT = `You changed this cell: press Run. ${STORED_RESULT}`;
@@ -44,10 +52,12 @@ export class Cell {
     this.edits = this.button("Edit", () => this.edit(true));
     this.resets = this.button("Reset", () => this.reset());
     this.bar = element("div", "rk-bar");
-    this.bar.append(this.runs, this.stops, this.edits, this.resets);
+    if (!data.reports) this.bar.append(this.runs, this.stops);
+    this.bar.append(this.edits, this.resets);
     this.stops.hidden = this.resets.hidden = true;
     if (this.stored) this.stored.before(this.bar, this.says);
     else place.append(this.bar, this.says);
+    this.help([...data.helps]);
     this.input.addEventListener("click", () => {
       if (!getSelection()?.toString()) this.edit(true);
     });
@@ -72,7 +82,7 @@ export class Cell {
     if (!inEditor || event.key !== "Enter" || !event.shiftKey) return;
     event.preventDefault();
     event.stopPropagation();
-    this.run();
+    if (!this.data.reports) this.run();
   }
 
   /** Shows the edit that this browser has kept, or asks whether to. @param {?Edit} edit */
@@ -153,6 +163,26 @@ export class Cell {
       runScripts(this.own);
     }
     this.mark();
+  }
+
+  /** A button shows these texts one after the other, below the buttons. @param {string[]} texts */
+  help(texts) {
+    if (!texts.length) return;
+    const helps = element("div", "rk-helps"),
+      label = () => (button.textContent = texts.length > 1 ? "Hint" : "Solution");
+    const button = this.button("Hint", () => {
+      const text = element(texts.length > 1 ? "p" : "div", ""); // the solution is code
+      text.textContent = texts.shift() ?? "";
+      helps.append(text);
+      if (texts.length) button.setAttribute("aria-label", `${label()} ${this.name}`);
+      else {
+        this.runs?.focus();
+        button.remove();
+      }
+    });
+    helps.setAttribute("role", "status");
+    this.bar?.append(button);
+    this.says?.after(helps);
   }
 
   /** @param {boolean} running */
