@@ -162,7 +162,6 @@ def lab(shared):
 
 
 def test_a_cell_runs_with_what_it_needs(lab):
-    assert "first run fetches" in lab.cell(POINT).inner_text()
     stored = lab.shows(POINT)
     said = record(lab, POINT)
     assert lab.run(POINT) == stored, "the page's Python prints what the stored run printed"
@@ -171,7 +170,6 @@ def test_a_cell_runs_with_what_it_needs(lab):
     assert "Running 1 cell above …" in said
     assert lab.says(POINT) == "This is your result."
     assert lab.cell(POINT).locator(".rk-mine").count() == 1
-    assert "first run fetches" not in lab.cell(POINT).inner_text()
 
 
 def record(lab, name):
@@ -328,7 +326,7 @@ def test_changes_survive_and_go_into_the_download(lab, site):
     assert "Saved for your report." in ask.inner_text()
     assert ask.get_by_role("button", name="Copy my guesses").count() == 0
     with lab.page.expect_download() as download:
-        lab.page.get_by_role("button", name="Download my notebook").click()
+        lab.page.get_by_role("button", name="Download my notebook").first.click()
     assert download.value.suggested_filename == f"{FRAMES}.ipynb"
     mine = json.loads(download.value.path().read_text(encoding="utf-8"))
     stored = json.loads((site / f"{FRAMES}.ipynb").read_text(encoding="utf-8"))
@@ -345,6 +343,22 @@ def test_changes_survive_and_go_into_the_download(lab, site):
     lab.page.reload()
     lab.cell(POINT).locator("textarea").wait_for()
     assert lab.text(POINT) == text
+
+
+def test_the_report_is_made_from_the_downloaded_notebook(lab, site):
+    report = lab.page.locator("div.cell", has_text="report(who)").last
+    assert report.get_by_role("button", name="Run").count() == 0
+    assert report.locator(".cell_output").count() == 0, "it would say what to do in JupyterLab"
+    progress = lab.page.locator("div.cell", has_text="progress(").last
+    for place in (lab.page.locator(".rk-intro"), progress, report):
+        assert place.get_by_role("link", name="How to hand it in").get_attribute("href")
+        with lab.page.expect_download() as download:
+            place.get_by_role("button", name="Download my notebook").click()
+        assert download.value.suggested_filename == f"{FRAMES}.ipynb"
+        words = place.inner_text() + lab.page.locator(".rk-intro + .rk-status").inner_text()
+        assert f"Downloaded {FRAMES}.ipynb" in words
+    plain = lab.page.locator("p.download a").first
+    assert plain.inner_text() == "Download the lab without my changes"
 
 
 def test_a_newer_lab_asks_before_it_uses_an_old_change(lab):

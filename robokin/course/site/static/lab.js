@@ -22,6 +22,7 @@ import {Views} from "./views.js";
  */
 /** @typedef {{outputs: Output[]}} Result */
 
+const LAST = /^(?:progress|report)\(/m; // the text next to these cells says how to hand in
 const ABOVE = "A cell above that this one needs ended with an error.";
 
 class Lab {
@@ -56,26 +57,34 @@ class Lab {
   introduce() {
     const {cells, data, note} = this,
       line = element("p", "rk-intro"),
-      more = data.sympy.length ? `, and SymPy, ${mb(total(data.sympy))} MB` : "";
-    for (const {bar} of cells) {
-      const cost = element("small", "rk-cost");
-      cost.textContent = `The first run fetches ${this.python.megabytes} MB.`;
-      bar?.append(cost);
-    }
-    const button = element("button", "");
-    button.type = "button";
-    button.textContent = "Download my notebook";
-    button.addEventListener("click", () => void this.download());
+      more = data.sympy.length ? `, and SymPy, ${mb(total(data.sympy))} MB` : "",
+      plain = document.querySelector("p.download");
+    for (const {bar, data, says} of cells)
+      if (says && LAST.test(data.source)) bar?.prepend(...this.handIn(says));
     line.append(
       "You can change and run the cells on this page. The first Run fetches Python once, ",
       `${mb(total(data.python))} MB${more}. `,
-      button,
+      ...this.handIn(note),
     );
-    document.querySelector("p.download")?.after(line, note);
+    plain?.before(line, note);
+    const link = plain?.querySelector("a");
+    if (link) link.textContent = "Download the lab without my changes";
   }
 
-  async download() {
-    const {cells, data, note} = this;
+  /** A button that downloads the reader's notebook, and a link. @param {HTMLElement} note */
+  handIn(note) {
+    const button = element("button", "rk-first"),
+      link = element("a", "");
+    button.type = "button";
+    button.textContent = "Download my notebook";
+    button.addEventListener("click", () => void this.download(note));
+    [link.href, link.textContent] = ["hand_in.html", "How to hand it in"];
+    return [button, link];
+  }
+
+  /** @param {HTMLElement} note  where to say what happened */
+  async download(note) {
+    const {cells, data} = this;
     const edited = cells.filter(({text, data}) => text !== data.source);
     try {
       const texts = new Map(edited.map(({text, data}) => [data.id, text]));
@@ -97,7 +106,6 @@ class Lab {
     cell.busy(true);
     try {
       await this.python.start(sentence => cell.say(sentence));
-      for (const cost of document.querySelectorAll(".rk-cost")) cost.remove();
       if (await this.prepare(cell)) {
         cell.say("Running …");
         const outputs = await this.execute(cell, true);
