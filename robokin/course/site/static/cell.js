@@ -2,7 +2,7 @@
 
 import {editor} from "./editor.js";
 import {keep, kept} from "./edits.js";
-import {runScripts, shown} from "./outputs.js";
+import {errorLine, runScripts, shown} from "./outputs.js";
 
 /** @import {Editor} from "./editor.js" */
 /** @import {Edit} from "./edits.js" */
@@ -37,13 +37,16 @@ export class Cell {
     this.run = () => run(this);
     this.complain = complain;
     this.text = data.source;
-    this.stopped = false;
+    this.stopped = this.failed = false; // its latest run
     this.stored = place.querySelector(":scope > .cell_output");
     /** @type {?HTMLElement} */
     this.own = null;
     /** @type {?Promise<Editor>} */
     this.editor = null;
-    if (data.asks) return;
+    if (data.asks) {
+      place.querySelector("details")?.replaceWith(label(`guess ${/\bp\d+/.exec(data.source)}`));
+      return;
+    }
     this.input = /** @type {HTMLElement} */ (place.querySelector(".cell_input"));
     this.says = element("p", "rk-status");
     this.says.setAttribute("role", "status");
@@ -53,7 +56,7 @@ export class Cell {
     this.resets = this.button("Reset", () => this.reset());
     this.bar = element("div", "rk-bar");
     if (!data.reports) this.bar.append(this.runs, this.stops);
-    this.bar.append(this.edits, this.resets);
+    this.bar.append(this.edits, this.resets, label(name));
     this.stops.hidden = this.resets.hidden = true;
     if (this.stored) this.stored.before(this.bar, this.says);
     else place.append(this.bar, this.says);
@@ -132,6 +135,8 @@ export class Cell {
   changed(text) {
     const {id, source} = this.data;
     this.text = text;
+    this.failed = false;
+    void this.point(0);
     this.complain(keep(id, text === source ? null : {stored: source, text}));
     this.mark();
     this.say(text === source || this.own || !this.stored ? "" : OLD_RESULT);
@@ -147,7 +152,17 @@ export class Cell {
   }
 
   mark() {
-    if (this.resets) this.resets.hidden = this.text === this.data.source && !this.own;
+    const {resets, data, name} = this;
+    if (!resets) return;
+    const changed = this.text !== data.source;
+    resets.hidden = !changed && !this.own;
+    resets.textContent = changed ? "Reset" : "Lab's result";
+    resets.setAttribute("aria-label", `${resets.textContent} ${name}`);
+  }
+
+  /** Marks the line of an error; 0 is none. @param {number} line */
+  async point(line) {
+    if (line || this.editor) (await this.edit(false)).point(line);
   }
 
   /**
@@ -161,6 +176,7 @@ export class Cell {
     if (this.own) {
       this.place.append(this.own);
       runScripts(this.own);
+      void this.point(errorLine(outputs ?? []));
     }
     this.mark();
   }
@@ -181,7 +197,7 @@ export class Cell {
       }
     });
     helps.setAttribute("role", "status");
-    this.bar?.append(button);
+    this.resets?.after(button);
     this.says?.after(helps);
   }
 
@@ -214,6 +230,13 @@ export class Cell {
       ),
     );
   }
+}
+
+/** A quiet name, such as "cell 3". @param {string} name */
+function label(name) {
+  const made = element("small", "rk-name");
+  made.textContent = name;
+  return made;
 }
 
 /**

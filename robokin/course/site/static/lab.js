@@ -4,7 +4,7 @@
 import {Cell, STORED_RESULT, element} from "./cell.js";
 import {notebook, offer} from "./download.js";
 import {elsewhere} from "./edits.js";
-import {FIGURE} from "./outputs.js";
+import {FIGURE, errorLine} from "./outputs.js";
 import {Ended, Python, mb} from "./python.js";
 import {Views} from "./views.js";
 
@@ -89,7 +89,10 @@ class Lab {
     try {
       const texts = new Map(edited.map(({text, data}) => [data.id, text]));
       offer(data.file, await notebook(data.file, texts));
-      note.textContent = `Downloaded ${data.file} with your changes and your guesses.`;
+      const failed = and(cells.filter(({failed, stopped}) => failed || stopped));
+      note.textContent =
+        `Downloaded ${data.file} with your changes and your guesses.` +
+        (failed && ` It failed or was stopped here: ${failed}. So run only the last cell there.`);
     } catch (error) {
       note.textContent = `The notebook could not be fetched (${error}).`;
     }
@@ -106,10 +109,11 @@ class Lab {
     cell.busy(true);
     try {
       await this.python.start(sentence => cell.say(sentence));
-      if (await this.prepare(cell)) {
+      const needs = await this.prepare(cell);
+      if (needs) {
         cell.say("Running …");
         const outputs = await this.execute(cell, true);
-        cell.say(result(outputs));
+        cell.say(result(outputs) + before(needs));
       }
     } catch (error) {
       if (!(error instanceof Ended)) throw error;
@@ -122,29 +126,29 @@ class Lab {
   }
 
   /**
-   * Runs the cells that a cell needs; returns whether all of them ended without an error.
+   * Runs the cells that a cell needs and returns them, or null if one of them had an error.
    * @param {Cell} cell
    */
   async prepare(cell) {
     const {cells} = this,
       texts = cells.map(({text}) => text);
     const found = await this.python.call("needs", texts, cells.indexOf(cell)),
-      needs = /** @type {number[]} */ (found);
-    const stopped = needs.map(k => cells[k]).find(each => each.stopped);
+      needs = /** @type {number[]} */ (found).map(k => cells[k]);
+    const stopped = needs.find(each => each.stopped);
     if (stopped) {
       cell.say(`This cell needs ${stopped.name}, which was stopped.`, [
         ["Show it", () => reveal(stopped)],
       ]);
-      return false;
+      return null;
     }
-    for (const [done, k] of needs.entries()) {
+    for (const [done, each] of needs.entries()) {
       const left = needs.length - done;
       cell.say(`Running ${left} ${left === 1 ? "cell" : "cells"} above …`);
-      if (fine(await this.execute(cells[k], false))) continue;
-      cell.say(ABOVE, [["Show it", () => reveal(cells[k])]]);
-      return false;
+      if (fine(await this.execute(each, false))) continue;
+      cell.say(ABOVE, [["Show it", () => reveal(each)]]);
+      return null;
     }
-    return true;
+    return needs;
   }
 
   /**
@@ -161,7 +165,8 @@ class Lab {
       cell.stopped = true;
       throw error;
     }
-    if (asked || !fine(outputs) || cell.text !== cell.data.source) cell.show(outputs);
+    cell.failed = !fine(outputs);
+    if (asked || cell.failed || cell.text !== cell.data.source) cell.show(outputs);
     this.views.learn(outputs);
     return outputs;
   }
@@ -186,12 +191,22 @@ const fine = outputs => !outputs.some(({output_type}) => output_type === "error"
 
 /** What the outputs are. @param {Output[]} outputs */
 function result(outputs) {
-  if (!fine(outputs)) return "Python stopped with an error.";
+  const line = errorLine(outputs);
+  if (!fine(outputs)) return `Python stopped with an error${line ? ` in line ${line}` : ""}.`;
   if (!outputs.length) return "Done. This cell shows nothing.";
   if (outputs.every(output => "data" in output && FIGURE in output.data))
     return "Done, but this page cannot draw the picture again.";
   return "This is your result.";
 }
+
+/** Says which cells ran before one that needs them. @param {Cell[]} cells */
+function before(cells) {
+  const changed = and(cells.filter(({text, data}) => text !== data.source));
+  return cells.length ? ` Ran before it: ${and(cells)}.${changed && ` Changed: ${changed}.`}` : "";
+}
+
+/** Their names, such as "cell 1, cell 2 and cell 4". @param {Cell[]} cells */
+const and = cells => new Intl.ListFormat("en-GB").format(cells.map(({name}) => name));
 
 /** A verdict in the style of the engine's. @type {(first: string, sentence: string) => Output} */
 function verdict(first, sentence) {
