@@ -149,6 +149,9 @@ def singular():
 
 WRONG_POSES = {
     "all eight ways": IRB140.fk(np.array([10, 20, -30, 40, 50, 60]) * deg),
+    "the flange instead of the wrist centre": Transform(
+        turned(180 * deg, Y), np.array([70, 0, 352]) * mm
+    ),
     "limits counted": Transform(turned(90 * deg, Y), np.array([300, 200, 600]) * mm),
     "no way: out of reach": Transform(translation=(0.9, 0, 0.3)),
     "mm for m": Transform(turned(180 * deg, Y), (70, 0, 297)),
@@ -161,6 +164,38 @@ WRONG_POSES = {
 def test_mistakes_in_poses_are_named(name):
     verdict = check(POSE, WRONG_POSES[name])
     assert not verdict.holds and verdict.mistake == name
+
+
+@pytest.mark.parametrize("k", range(8))
+def test_reply_to_eight_ways_states_the_wrist_centre_and_both_distances(k):
+    rng = np.random.default_rng(k)
+    angle, r, z = rng.uniform(-180, 180) * deg, rng.uniform(150, 450) * mm, rng.uniform(600, 800)
+    centre = np.array([r * np.cos(angle), r * np.sin(angle), z * mm])
+    rotation = Quaternion.from_roll_pitch_yaw(*rng.uniform(-180, 180, 3) * deg)
+    pose = Transform(rotation, centre + 65 * mm * (rotation @ Z))
+    rows = IRB140.ik(pose)
+    assert np.isfinite(rows).all()
+    away = [
+        np.linalg.norm(IRB140.frames(row)[2].translation - centre) / mm
+        for row in (rows[0], rows[4])
+    ]
+    reply = " ".join(check(POSE, pose).says)
+    assert [int(x) for x in re.search(r"at \(([^)]*)\) mm", reply)[1].split(",")] == pytest.approx(
+        centre / mm, abs=0.5
+    )
+    pattern = r"shoulder is ([\d.]+) mm with front \+1, and ([\d.]+) mm with front −1"
+    said = [float(x) for x in re.search(pattern, reply).groups()]
+    assert said == pytest.approx(away, abs=0.051)
+
+
+def test_flange_at_the_place_of_the_wrist_centre_is_named_from_any_side():
+    for angle in (0, 70, 180):
+        about = turned(angle * deg, Z)
+        for tilt in (0, 90, 180):
+            pose = Transform(about @ turned(tilt * deg, Y), about @ (np.array([70, 0, 372]) * mm))
+            verdict = check(POSE, pose)
+            assert verdict.mistake == "the flange instead of the wrist centre", (angle, tilt)
+            assert "65 mm behind the flange" in " ".join(verdict.says)
 
 
 @pytest.mark.parametrize(
@@ -271,6 +306,15 @@ def test_mistakes_in_designs_are_named():
         "duration": good["duration"],
     }
     assert check(DESIGN, lists, who="anna").holds
+
+
+def test_replies_about_speed_do_not_give_the_duration_away():
+    good, share = design("anna"), variant("irb140_kinematics", "anna")["share"]
+    for factor, word in ((0.5, "more"), (2, "less")):
+        verdict = check(DESIGN, good | {"duration": factor * good["duration"]}, who="anna")
+        reply = " ".join(verdict.says)
+        assert re.findall(r"([\d.]+) %", reply) == [f"{100 * share:.0f}"]
+        assert f"uses {word} than your share" in reply
 
 
 def test_message_about_a_limit_states_the_time_the_joint_and_the_excess():

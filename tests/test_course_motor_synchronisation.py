@@ -88,7 +88,7 @@ def test_correct_postures_pass_in_every_style(answer):
     ("answer", "name"),
     [
         (posture(right, guard=False), "an error instead of NaN"),
-        (posture(lambda x, y, b: math.atan2(y, x)), "alpha does not go on from before"),
+        (posture(lambda x, y, b: math.atan2(y, x)), "alpha does not continue from before"),
         (posture(lambda x, y, b: b + short(math.atan2(y, x) - b)), "on the axis"),
         (only_calls, "the shoulder is left out"),
         (posture(lambda x, y, b: right(x, y, b) % TURN), "alpha from 0° to 360°"),

@@ -281,6 +281,18 @@ def test_points_that_are_not_a_trap_are_reported(task, points, mistake):
     assert not verdict.holds and verdict.mistake == mistake, verdict
 
 
+def test_all_wrong_answers_are_named_at_once():
+    none = dict.fromkeys(("visit", "collect", "worth"), "no trap")
+    verdict = check("visit_and_collect.3", none, who="your name")
+    assert verdict.mistake == "2 of the 3 answers are wrong: given up, although there is a trap"
+    built = none | {"collect": [[3, 3, 3], [4, 0, 2], [1, 5, 1], [-3, 2, 2]]}
+    verdict = check("visit_and_collect.3", built, who="your name")
+    assert verdict.mistake.startswith("3 of the 3 answers are wrong: given up")
+    assert verdict.mistake.endswith("; a trap that cannot exist")
+    tasks = [line.split(":")[0] for line in verdict.says]
+    assert tasks == ['"visit"', '"collect"', '"worth"'] and verdict.points == 0
+
+
 def test_loss_of_less_than_half_of_the_value_is_reported():
     numbers = variant("visit_and_collect", "your name") | {"worth": [3, 2, 3, 4]}
     points = np.array(turned(numbers, [0.5, -1.35, -1.5, -1.2]))

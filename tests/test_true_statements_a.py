@@ -183,6 +183,22 @@ def test_the_cross_product_fails_differently_for_each_suggested_value():
         said.append(run("02", *before, "cross-code", name="q5", value=value)[1])
     assert len({each.splitlines()[0] for each in said}) == len(said) == 3
     assert {each.splitlines()[1] for each in said} == {"ours: none of 200 orientations wrong"}
+    assert "at $10^{-10}$ degrees, all 200 orientations are right" in sources("02")["home-more"]
+    near = run("02", *before, "cross-code", name="q5", value="1e-10 * deg")[1]
+    assert near.splitlines()[0] == "cross product: none of 200 orientations wrong"
+
+
+def test_arcsine_fails_on_an_arm_whose_joint_3_passes_the_stated_angle():
+    degrees = number(r"joint 3 can turn past (\d+)°", sources("02")["arcsin-look"])
+    g, _ = run("02", "chain-code", "triangle-code", "arcsin-code")
+
+    def off(q3):
+        flange = g["my_chain"](np.array([0, 0, q3, 0, 0, 0]) * deg)[4].translation
+        r, z = flange[0], flange[2]
+        return g["miss"](g["sine_triangle"](r, z), r, z)
+
+    assert all(off(q3) < 1e-9 for q3 in (-60, 0, 50, degrees - 0.5))
+    assert off(degrees + 1) > 1 * mm and degrees > IRB140.limits[2, 1] / deg
 
 
 def _turn(axis, angle):

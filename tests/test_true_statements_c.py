@@ -194,8 +194,10 @@ def test_first_and_last_x_of_the_rows_in_the_lab_are_those_of_the_triangle():
     ends = numbers(
         r"At x = (\d+) mm, the four rows with front −1 vanish, and at (\d+) mm, the others", says
     )
-    ahead, more = numbers(r"shoulder is (\d+) mm ahead of axis 1.*up to (\d+) mm farther", says)
-    assert more == 2 * ahead == 140
+    ahead, more = numbers(
+        r"shoulder is (\d+) mm ahead of axis 1.* (\d+) mm farther back along \$r\$", says
+    )
+    assert more == 2 * ahead == 140 != ends[1] - ends[0] and "(not quite along x)" in says
     rotation = Quaternion.from_roll_pitch_yaw(-30 * deg, 15 * deg, -15 * deg)
     opened = shown("02", "drag-target")
     assert "x 250, y −50, z 950, roll −30, pitch 15, yaw −15" in opened

@@ -201,6 +201,13 @@ def test_path_over_the_axis_costs_the_whole_move_to_it():
     assert "with joint 1 at more than twice its greatest speed" in flat("08", "time-axis-look")
     moves = needs(q[0][1:], q[2][1:], 0.2) + needs(q[2][1:], q[3][1:], 0.2)
     assert abs(q[3][0] - q[0][0]) / moves > 2 * 0.2 and moves < needs(q[0], q[3], 0.2)
+    # to the same side, it agrees with "stays", and "turns to 0" takes joint 1 to 0 and back
+    assert 'agrees with "stays"' in flat("08", "time-axis-look")
+    turned, kept = ([angle, *q[2][1:]] for angle in (0.0, q[0][0]))
+    stays = needs(q[0], kept, 0.2) + needs(kept, q[1], 0.2)
+    assert needs(q[0][1:], q[2][1:], 0.2) + needs(q[2][1:], q[1][1:], 0.2) == pytest.approx(stays)
+    back = needs(q[0], turned, 0.2) + needs(turned, q[1], 0.2)
+    assert back == pytest.approx((q[0][0] + q[1][0]) / 0.2) and back > 5 * stays
 
 
 def test_another_factor_makes_another_point_the_nearest():

@@ -309,11 +309,18 @@ class ThreeLeverArm(Arm):
         other sums have no minimum between the ends. Each of six rounds takes 33 samples and narrows
         the interval to the neighbours of the best one. Half of the digits of alpha are enough,
         since the sum is flat at its minimum.
+
+        beta - gamma is a right angle less alpha / 2, plus the difference of the angles at B and at
+        O in the triangle OBK, which the law of tangents gives.
         """
         for _ in range(6):
             alphas = low[..., None] + (high - low)[..., None] * np.linspace(0, 1, 33)
-            gamma, beta, alpha = np.moveaxis(self._posture(KO[..., None], 0.0, alphas), -1, 0)
-            best = (alpha + beta - gamma).argmin(axis=-1)[..., None]
+            KB = 2 * self.lever * np.sin(alphas / 2)
+            more, less = KO[..., None] + KB, KO[..., None] - KB
+            around = np.sqrt(np.maximum(more**2 - self.lever**2, 0))
+            beside = np.sqrt(np.maximum(self.lever**2 - less**2, 0))
+            sums = alphas / 2 + 2 * np.arctan2(less * around, more * beside)
+            best = sums.argmin(axis=-1)[..., None]
             low = np.take_along_axis(alphas, np.maximum(best - 1, 0), axis=-1)[..., 0]
             high = np.take_along_axis(alphas, np.minimum(best + 1, 32), axis=-1)[..., 0]
         return (low + high) / 2

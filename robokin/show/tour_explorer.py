@@ -211,7 +211,8 @@ def _says(task: Task, results: dict[str, Result], n: str) -> str:
     if task.kind == "collect":
         if best is None:
             return f"Cheapest first brings {few} of {n}; p0 is on axis 1: more may be possible."
-        return f"Cheapest first brings {few} of {n} in {greedy.time:.2f} s; no choice brings more."
+        told = f"Cheapest first brings {few} of {n} in {greedy.time:.2f} s"
+        return f"{told}; no choice brings more objects."
     if best is None:
         return f"{_alone(task, greedy, n)} The best order appears when you let go."
     if lost := len(best.order) - few:

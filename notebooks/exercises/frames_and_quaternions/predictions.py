@@ -132,7 +132,7 @@ def p7() -> dict[str, Any]:
     rows[0] = 1.0
     rows /= np.linalg.norm(rows, axis=1, keepdims=True)
     least, three = float(abs(rows).max(axis=1).min()), float(np.sqrt(1 / 3))
-    guesses = {"zero": 0.0, "a quarter": 0.25, "a half": 0.5, "a third's root": three}
+    guesses = {"zero": 0.0, "a quarter": 0.25, "a half": 0.5, "the root of 1/3": three}
     return {"least": least, "three": three, "right": nearest(guesses, least)}
 
 

@@ -4,12 +4,15 @@ from typing import Any
 
 import numpy as np
 
-from robokin import IRB140, Transform, explain, within
+from robokin import IRB140, Transform, explain, mm, within
 from robokin.course.exercises import in_words
 from robokin.course.function import Fault
 from robokin.course.slips import METRES
 
+from .shared import L0, L1, L4, Floats, Z
+
 COUNT = 1
+CLOSE = 30 * mm  # the triangle does not close at smaller distances
 GOAL = {
     "wanted": 4,
     "holds": "The arm reaches this pose in {count} ways. Do all of them have front −1?",
@@ -47,15 +50,11 @@ def faults(pose: Transform, given: Any) -> list[Fault]:
     if count == 8 and usable == 4:
         says = (
             "Four rows are inside the limits, but all eight exist. Count a row even if a joint is "
-            "past its limit, because it still reaches the pose."
+            f"past its limit, because it still reaches the pose. {measured(pose)}"
         )
         return [("limits counted", says)]
     if count != 4:
-        says = (
-            f"{count} rows of ik exist. For which wrist centres does the triangle close with front "
-            "−1, but not with front +1?"
-        )
-        return [("all eight ways" if count == 8 else f"{count} ways", says)]
+        return [too_many(pose, count)]
     if exists[:4].any():
         says = (
             "Four rows exist, but they have front +1: your target is too far away for an arm that "
@@ -73,3 +72,35 @@ def faults(pose: Transform, given: Any) -> list[Fault]:
         )
         return [("rows twice: a singular pose", says)]
     return []
+
+
+def too_many(pose: Transform, count: int) -> Fault:
+    """Not four rows: the distances of the wrist centre, and what to ask about them."""
+    where = measured(pose)
+    if from_shoulder(pose.translation, +1) < CLOSE:
+        says = (
+            "You put the flange near the shoulder, but the triangle ends at the wrist centre, "
+            f"65 mm behind the flange. {where}"
+        )
+        return "the flange instead of the wrist centre", says
+    says = (
+        f"{count} rows of ik exist. {where} At which distances does the triangle close with front "
+        "−1, but not with front +1?"
+    )
+    return "all eight ways" if count == 8 else f"{count} ways", says
+
+
+def measured(pose: Transform) -> str:
+    """Where the wrist centre of the pose is, and how far from the shoulder with each front flag."""
+    centre = np.asarray(pose @ (-L4 * Z))
+    facing, away = (from_shoulder(centre, front) / mm for front in (+1, -1))
+    place = ", ".join(str(round(x / mm)) for x in centre.tolist())
+    return (
+        f"The wrist centre of your pose is at ({place}) mm. Its distance d from the shoulder is "
+        f"{facing:.1f} mm with front +1, and {away:.1f} mm with front −1."
+    )
+
+
+def from_shoulder(point: Floats, front: int) -> float:
+    """The distance d, in metres, of a point (3,) from the shoulder with this front flag."""
+    return float(np.hypot(front * np.hypot(point[0], point[1]) - L1, point[2] - L0))

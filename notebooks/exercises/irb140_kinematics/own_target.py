@@ -147,17 +147,17 @@ def speeds(q: Floats, duration: float, given: Mapping[str, Any]) -> list[Fault]:
     used = steps / dt / IRB140.speed_limits
     i, k = np.unravel_index(int(used.argmax()), used.shape)
     most, share = float(used[i, k]), given["share"]
-    reached, asked = apart(100 * most, 100 * share, 0)
     busiest = (
-        f"Joint {k + 1} is closest to its speed limit: it reaches {reached} % of it at "
-        f"t = {i * dt:.2f} s, and up to {asked} % is allowed"
+        f"Joint {k + 1} is closest to its speed limit, at t = {i * dt:.2f} s. There it uses "
+        f"{{}} your share of {100 * share:.0f} %"
     )
     if most > EASE * share:
-        return [(f"too fast: joint {k + 1}", f"{busiest}. The motion needs more time.")]
+        says = f"{busiest.format('more than')}. The motion needs more time."
+        return [(f"too fast: joint {k + 1}", says)]
     if most * SLACK * EASE < share:
         says = (
-            f"{busiest}. Choose a shorter duration: at most {SLACK} times the shortest one is "
-            "allowed, and speeds are proportional to 1 / duration."
+            f"{busiest.format('less than')}. Choose a shorter duration: at most {SLACK} times the "
+            "shortest one is allowed, and speeds are proportional to 1 / duration."
         )
         return [("slower than asked", says)]
     return []

@@ -10,6 +10,7 @@ from robokin import Quaternion, Transform, mm
 
 Floats = NDArray[np.float64]
 X, Y, Z = np.eye(3)
+L0, L1 = 352 * mm, 70 * mm  # the shoulder: its height and its distance from axis 1
 L4 = 65 * mm  # from the wrist centre to the flange
 turned = Quaternion.from_angle_axis
 

@@ -19,8 +19,9 @@ UNITS = {
     **{f"{end}_{letter}": ("mm", mm) for end in ("start", "goal") for letter in "xyz"},
     "fastest": ("°/s", deg),
 }
-SAMPLES = 161  # to find a line; its speeds and limits are checked with FINE
+SAMPLES = 41  # to find a line; FINE then confirms it, and judges the answers
 FINE = 641
+QUICKEST = (1, 2)  # a line is drawn so that one of these rows is the quickest, as often each
 LONGEST = 1.05  # times the shortest duration
 
 
@@ -53,20 +54,21 @@ class Judged:
         """The shortest duration of each row, s; infinite if the row is not usable to the end."""
         return np.where(self.serves, self.speed / fastest, np.inf)
 
-    def fair(self) -> bool:
-        """Whether a line is a fair task: some rows are usable to its end, at least two others only
-        at its start, the obvious row is not the fastest, and nothing depends on the samples.
+    def fair(self, quickest: int) -> bool:
+        """Whether a line is a fair task: at least two rows are usable to its end, so that there is
+        a choice, and at least two others only at its start. The row `quickest` is clearly the
+        quickest, the next one is less than four times as slow, and nothing depends on the samples.
         """
         if not np.isfinite(self.q).all():
             return False
         most = np.sort(self.least(1.0))
         best = int(self.least(1.0).argmin())
         return bool(
-            1 <= self.serves.sum() <= min(4, self.at_start.sum() - 2)
+            2 <= self.serves.sum() <= min(4, self.at_start.sum() - 2)
             and (abs(self.past) > 1 * deg).all()
-            and most[1] > 1.15 * most[0]
+            and 1.15 * most[0] < most[1] < 4 * most[0]
             and self.near[best] > 0.03
-            and best != self.obvious
+            and best == quickest
         )
 
 
@@ -81,6 +83,7 @@ def judged_line(numbers: Mapping[str, float], samples: int = FINE) -> Judged:
 def given(who: Any) -> Numbers:
     """An individual line, for which the student chooses a row and a duration."""
     roll = dice("puma560_branches", who)
+    quickest = QUICKEST[roll.randrange(len(QUICKEST))]
     while True:
         side, x = 1 - 2 * roll.randrange(2), roll.randrange(350, 651, 10) * mm
         numbers = {
@@ -96,7 +99,7 @@ def given(who: Any) -> Numbers:
         reached = np.isfinite(
             PUMA560.ik(lin(*ends(numbers), quintic(1.0)(np.linspace(0, 1, 21))))
         ).all()
-        if reached and judged_line(numbers, SAMPLES).fair():
+        if reached and all(judged_line(numbers, n).fair(quickest) for n in (SAMPLES, FINE)):
             return Numbers(numbers, UNITS)
 
 

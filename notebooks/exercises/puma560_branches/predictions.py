@@ -200,7 +200,7 @@ def p7() -> dict[str, Any]:
     followed = tracks(rows)  # (lines, 8, 81, 6)
     served = serves(followed)
     can = served.any(axis=-1)
-    facts: dict[str, Any] = {"lines": int(can.sum())}
+    facts: dict[str, Any] = {"lines": int(can.sum()), "pairs": PAIRS}
     for k, rule in enumerate(RULES.values()):
         pick = np.where(usable(rows[:, 0]), rule(followed[:, :, 0]), np.inf).argmin(axis=-1)
         missed = ~served[np.arange(len(rows)), pick][can]

@@ -130,8 +130,11 @@ def holds(traps: Traps, numbers: Any) -> list[str]:
 
 
 def faults(traps: Traps, numbers: Any) -> list[Fault]:
-    found = (trap_fault(task, traps[task], numbers) for task in TASKS)
-    return [fault for fault in found if fault]
+    found = [fault for task in TASKS if (fault := trap_fault(task, traps[task], numbers))]
+    if len(found) < 2:
+        return found
+    names = "; ".join(dict.fromkeys(name for name, _ in found))
+    return [(f"{len(found)} of the {COUNT} answers are wrong: {names}", says) for _, says in found]
 
 
 def trap_fault(task: str, points: Floats | None, numbers: Any) -> Fault | None:

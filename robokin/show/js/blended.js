@@ -35,11 +35,19 @@ export function motionOf(data, state) {
     {duration} = state;
   const law = LAWS[laws[state.law]](duration);
   const t = Array.from({length: samples}, (_, i) => (duration * i) / (samples - 1));
-  /** @type {(x: number) => PagePose} */
-  const poseAt = x =>
-    blend(state.start, state.via, state.goal, state.blend, law(x), corners[state.corner]);
-  const rows = t.map(x => ik(arm, poseAt(x))),
-    q = follow(arm, rows, state.row),
+  /** @type {(start: PagePose, via: PagePose, goal: PagePose) => (x: number) => PagePose} */
+  const between = (start, via, goal) => x =>
+    blend(start, via, goal, state.blend, law(x), corners[state.corner]);
+  const poseAt = between(state.start, state.via, state.goal);
+  // without rotations, which take most of the time
+  const [start, via, goal] = [state.start, state.via, state.goal].map(({place}) => ({place})),
+    placeAt = between(start, via, goal);
+  const poses = t.map(x => poseAt(x)),
+    q = follow(
+      arm,
+      poses.map(pose => ik(arm, pose)),
+      state.row,
+    ),
     recorded = record(q, t, arm.prismatic, data.jumps),
     {missing} = recorded;
   const tool = q.map((row, i) => (missing[i] ? null : origin(fk(arm.chain, row))));
@@ -54,7 +62,14 @@ export function motionOf(data, state) {
     q,
     tool,
     gaps: new Set(recorded.gaps.flatMap((gap, i) => (gap ? [i] : []))),
-    near: passing(data, state.via, poseAt, t, missing),
+    near: passing(
+      data,
+      via.place,
+      x => placeAt(x).place,
+      t,
+      poses.map(({place}) => place),
+      missing,
+    ),
     poseAt,
     times: times.sort((x, y) => x - y),
   };
@@ -130,16 +145,16 @@ export function motions(data, state) {
  * Returns the point of the path that is nearest to the via point, which may lie between samples, or
  * null if there is no path.
  * @param {MotionPage} data
- * @param {PagePose} via
- * @param {(x: number) => PagePose} poseAt
+ * @param {Point} via
+ * @param {(x: number) => Point} placeAt
  * @param {number[]} t
+ * @param {Point[]} places
  * @param {boolean[]} missing
  * @returns {?Near}
  */
-function passing({unit}, via, poseAt, t, missing) {
+function passing({unit}, via, placeAt, t, places, missing) {
   const decimals = unit.size < 1 ? 1 : 3,
-    places = t.map(x => poseAt(x).place),
-    far = places.map(place => distance(place, via.place) / unit.size);
+    far = places.map(place => distance(place, via) / unit.size);
   const steps = far.flatMap((_, i) => (i && !missing[i] && !missing[i - 1] ? [i] : []));
   let least = Infinity,
     at = NaN;
@@ -149,7 +164,7 @@ function passing({unit}, via, poseAt, t, missing) {
     k => Math.min(far[k - 1], far[k]) - distance(places[k], places[k - 1]) / unit.size < least,
   )) {
     const nearest = refinedMaximum(
-      x => -distance(poseAt(x).place, via.place) / unit.size,
+      x => -distance(placeAt(x), via) / unit.size,
       t[i - 1],
       t[i],
       decimals,
@@ -157,5 +172,5 @@ function passing({unit}, via, poseAt, t, missing) {
     if (-nearest.value < least) [least, at] = [-nearest.value, nearest.at];
   }
   if (!steps.length) return null;
-  return {place: poseAt(at).place, text: `${number(least, decimals)} ${unit.name}`};
+  return {place: placeAt(at), text: `${number(least, decimals)} ${unit.name}`};
 }

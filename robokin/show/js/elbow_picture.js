@@ -197,7 +197,7 @@ function labelsOf(data, now, places, wide) {
   const angle = (name, x) => (wide ? `${name} ${number(degrees(x), 1)}\u00B0` : name);
   const lines = [
     label(length("d", now.d), along(joint2, point), colors.ink),
-    label(length("u", now.u), along(joint2, corner)),
+    label(length("u", now.u), along(joint2, corner, 0.7)), // clear of "joint 2"
     label(length("w", now.w), along(corner, point)),
     label(words.take, point, colors.ink, "600"),
     ...(wide ? [label("joint 2", joint2)] : []),

@@ -88,8 +88,11 @@ export function handleLayer(canvas, camera, hold, changed) {
      */
     place(cam = camera()) {
       /** @type {Pixel[]} */
-      const taken = [];
-      chooser.update(canvas.clientWidth);
+      const taken = [],
+        big = large();
+      // asked once: after a button has moved, the browser would have to lay out the page again
+      const {clientWidth: width, clientHeight: height} = canvas;
+      chooser.update(width);
       for (const {node, group = ""} of handles) node.hidden = !chooser.stands(group);
       // The grabbed handle keeps its offset, so that it stays under the pointer; the others make
       // room.
@@ -97,8 +100,8 @@ export function handleLayer(canvas, camera, hold, changed) {
         .filter(({node}) => !node.hidden)
         .sort((a, b) => Number(b.id === held) - Number(a.id === held));
       for (const handle of first)
-        taken.push(placed(handle, cam, handle.id === held ? null : taken, canvas));
-      const size = large() ? 44 : 26;
+        taken.push(placed(handle, cam, handle.id === held ? null : taken, [width, height], big));
+      const size = big ? 44 : 26;
       return taken.map(([x, y]) => [x - size / 2, y - size / 2, size, size]);
     },
   };
@@ -166,14 +169,14 @@ function button(handle, {camera, hold, changed}) {
  * @param {Shown} handle
  * @param {Camera} camera
  * @param {?Pixel[]} taken  the places to avoid; null if the handle is held
- * @param {HTMLElement} canvas
+ * @param {Pixel} size  of the scene
+ * @param {boolean} big  whether the buttons are large
  */
-function placed(handle, camera, taken, canvas) {
+function placed(handle, camera, taken, [width, height], big) {
   const {node, name, at, value, shift} = handle,
     p = at(camera),
     place = camera.to(p),
-    {clientWidth: width, clientHeight: height} = canvas,
-    [half, room] = large() ? [22, 40] : [13, 25];
+    [half, room] = big ? [22, 40] : [13, 25];
   /** @type {(place: Pixel) => Pixel} */
   const inside = ([x, y]) => [
     Math.min(Math.max(x, half), width - half),

@@ -16,7 +16,7 @@ import {WORD, font, ink, stroke, wordInk, write} from "./canvas.js";
  * @property {boolean} [near]  whether to leave it out if there is no free place close to its point
  */
 
-/** @typedef {[x: number, y: number, r: number, weight: number]} Dot  a part of the ink */
+/** @typedef {{x: number, y: number, r: number, heavy: number}} Dot  a part of the ink */
 
 const GAPS = [5, 14, 26, 40, 58, 84], // px between a point and its label
   TURNS = 12, // the number of directions
@@ -44,7 +44,7 @@ export function placeLabels(g, labels, [left, top, width, height], handles = [])
       [ax, ay] = away ?? [0.5, -0.5],
       [px, py] = [between(at[0], left, width), between(at[1], top, height)],
       close = dots.filter(
-        ([x, y, r]) => Math.abs(x - px) < wide + r + 90 && Math.abs(y - py) < r + 110,
+        dot => Math.abs(dot.x - px) < wide + dot.r + 90 && Math.abs(dot.y - py) < dot.r + 110,
       );
     let [least, x, y, place] = [Infinity, 0, 0, 0];
     for (let k = 0; k < (near ? NEAR : GAPS.length * TURNS); k++) {
@@ -57,9 +57,12 @@ export function placeLabels(g, labels, [left, top, width, height], handles = [])
       if (u !== between(u, left, width - wide) || v !== between(v, top, height - HIGH))
         cost += 5 * WORD;
       if (cost >= least) continue;
-      for (const [dx, dy, r, heavy] of close) {
-        if (dx > u - r && dx < u + wide + r && dy > v - r && dy < v + HIGH + r) cost += heavy;
-        if (cost >= least) break;
+      // objects and an index, since this loop takes most of the time
+      for (let i = 0; i < close.length && cost < least; i++) {
+        const dot = close[i],
+          r = dot.r;
+        if (dot.x > u - r && dot.x < u + wide + r && dot.y > v - r && dot.y < v + HIGH + r)
+          cost += dot.heavy;
       }
       if (cost < least) [least, x, y, place] = [cost, u, v, k];
     }
@@ -90,7 +93,7 @@ const between = (x, low, size) => Math.max(low, Math.min(low + size, x));
  * @param {Dot[]} dots
  * @param {Ink} ink
  */
-function mark(dots, [points, wide, weight]) {
+function mark(dots, [points, wide, heavy]) {
   const step = 7 + wide / 4;
   /** @type {?Pixel} */
   let from = null;
@@ -101,7 +104,7 @@ function mark(dots, [points, wide, weight]) {
         dy = to[1] - y,
         count = Math.min(200, Math.ceil(Math.hypot(dx, dy) / step)) || 1;
       for (let i = 1; i <= count; i++)
-        dots.push([x + (i / count) * dx, y + (i / count) * dy, wide / 2, weight]);
+        dots.push({x: x + (i / count) * dx, y: y + (i / count) * dy, r: wide / 2, heavy});
     }
     from = to;
   }

@@ -53,9 +53,9 @@ export function kernelOf(root, id, words, hear) {
       about = questions.answered(n);
     if (!about) return;
     questions.stir(true, answer.error ? words.failed.replace("{error}", answer.error) : "");
+    questions.send(); // before the answer is drawn, so that Python and the page work side by side
     if (!answer.error) hear(/** @type {Answer} */ (joinArrays(answer, buffers)), about.question);
     root.dataset.answered = String(n);
-    questions.send();
   });
   questions.sleep();
   document.dispatchEvent(new CustomEvent("robokin-asks", {detail: {id, root}}));

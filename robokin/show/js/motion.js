@@ -62,7 +62,9 @@ export function blend(start, via, goal, fraction, s, corner = "parabola") {
     b = fraction;
   const x = b > 0 ? clipped((share - 0.5 + b) / (2 * b)) : Number(share >= 0.5);
   const first = lerp(start, via, Math.min(2 * share, 1 - 2 * b));
+  if (x === 0) return first;
   const last = lerp(via, goal, Math.max(2 * share - 1, 2 * b));
+  if (x === 1) return last;
   let poses = [first, via, last];
   if (corner === "quintic") {
     poses = [

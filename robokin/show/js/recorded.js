@@ -99,7 +99,7 @@ export function leaps(q, t, prismatic, {least, few}) {
     const noise = sorted.length < few ? 0 : 10 * sorted[Math.floor(sorted.length / 4)];
     /** @type {(i: number, left: number, right: number) => boolean} */
     const stands = (i, left, right) =>
-      outside(speeds, i, left, right) > Math.max(least / (t[i + 1] - t[i]), noise);
+      isOutside(speeds, i, left, right, Math.max(least / (t[i + 1] - t[i]), noise));
     /** @type {(i: number) => boolean} */
     const turnsBack = i => speeds[i] * speeds[i + 1] < 0 && stands(i, 1, 2) && stands(i + 1, 2, 1);
     return steps.map(
@@ -114,14 +114,15 @@ export function leaps(q, t, prismatic, {least, few}) {
 }
 
 /**
- * The amount by which a speed is outside the range of the `left` speeds before it and the `right`
- * speeds after it; 0 if it may belong to a quick motion.
+ * Whether a speed is outside the range of the `left` speeds before it and the `right` speeds after
+ * it by more than `most`, and cannot belong to a quick motion.
  * @param {number[]} speeds
  * @param {number} i
  * @param {number} left
  * @param {number} right
+ * @param {number} most
  */
-function outside(speeds, i, left, right) {
+function isOutside(speeds, i, left, right, most) {
   const neighbours = [
     [i - left, -1],
     [i + right, 1],
@@ -129,6 +130,7 @@ function outside(speeds, i, left, right) {
   const beside = neighbours.map(([k]) => speeds[k]);
   const [low, high] = [Math.min(...beside), Math.max(...beside)];
   const out = Math.max(speeds[i] - high, low - speeds[i]);
+  if (!(out > most)) return false;
   let near = high - low,
     far = near;
   for (const [k, side] of neighbours) {
@@ -141,5 +143,5 @@ function outside(speeds, i, left, right) {
     times = Math.abs(speeds[i]) / Math.max(...beside.map(Math.abs));
   const alone = both && out > 8 * far,
     crowd = out > 8 * near && times > (both ? 3 : 10);
-  return alone || crowd ? out : 0;
+  return alone || crowd;
 }

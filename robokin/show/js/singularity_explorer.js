@@ -153,7 +153,7 @@ const pointOn = ({unit: {size}, pose, along, beside}, place, miss) =>
 /**
  * Returns a function that maps a place on the line with this miss (both in mm) to the arm there. If
  * the miss is not zero, the arm keeps its row of `ik`. Otherwise, the line leads through the
- * singular pose, where joint 5 changes its sign. After it, the arm continues with the row of the
+ * singular pose, where joint 5 changes sign. After it, the arm continues with the row of the
  * other wrist flag.
  * @param {Line} data
  * @param {number} miss
