@@ -60,15 +60,17 @@ class Lab {
       more = data.sympy.length ? `, and SymPy, ${mb(total(data.sympy))} MB` : "",
       plain = document.querySelector("p.download");
     for (const {bar, data, says} of cells)
-      if (says && LAST.test(data.source)) bar?.prepend(...this.handIn(says));
+      if (says && LAST.test(data.source)) bar?.append(...this.handIn(says));
     line.append(
       "You can change and run the cells on this page. The first Run fetches Python once, ",
       `${mb(total(data.python))} MB${more}. `,
       ...this.handIn(note),
     );
-    plain?.before(line, note);
     const link = plain?.querySelector("a");
-    if (link) link.textContent = "Download the lab without my changes";
+    if (!plain || !link) return;
+    plain.before(line, note);
+    link.textContent = "Download the lab without my changes";
+    plain.parentElement?.append(plain);
   }
 
   /** A button that downloads the reader's notebook, and a link. @param {HTMLElement} note */
