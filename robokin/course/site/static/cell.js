@@ -184,17 +184,18 @@ export class Cell {
   /** A button shows these texts one after the other, below the buttons. @param {string[]} texts */
   help(texts) {
     if (!texts.length) return;
-    const helps = element("div", "rk-helps"),
-      label = () => (button.textContent = texts.length > 1 ? "Hint" : "Solution");
+    const helps = element("div", "rk-helps");
     const button = this.button("Hint", () => {
       const text = element(texts.length > 1 ? "p" : "div", ""); // the solution is code
       text.textContent = texts.shift() ?? "";
       helps.append(text);
-      if (texts.length) button.setAttribute("aria-label", `${label()} ${this.name}`);
-      else {
+      if (!texts.length) {
         this.runs?.focus();
         button.remove();
+        return;
       }
+      button.textContent = texts.length > 1 ? "Hint" : "Solution";
+      button.setAttribute("aria-label", `${button.textContent} ${this.name}`);
     });
     helps.setAttribute("role", "status");
     this.resets?.after(button);
