@@ -139,6 +139,20 @@ def test_syntax_errors_name_the_line():
     ]
 
 
+@pytest.mark.parametrize(
+    ("source", "meant"),
+    [
+        ("from robokin import IRB140\nIRB140.branh(1, 1, 1)", "branch"),
+        ("swing = 1\nprint(swimg)", "swing"),
+        ("pritn(1)", "print"),
+        ("import math\nmath.qqqqqqqqqq", None),
+    ],
+)
+def test_a_misspelled_name_has_pythons_suggestion(source, meant):
+    says = error(source)["evalue"]
+    assert says.endswith(f". Did you mean: '{meant}'?") if meant else "Did you" not in says
+
+
 def test_endless_recursion_is_short():
     found = error("def f():\n    f()\nf()")
     assert found["ename"] == "RecursionError" and len(found["traceback"]) < 12

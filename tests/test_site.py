@@ -15,7 +15,7 @@ from urllib.parse import unquote, urlsplit
 
 import pytest
 from axe_playwright_python.sync_playwright import Axe
-from conftest import NOTEBOOKS, REPOSITORY, awake, until
+from conftest import NOTEBOOKS, REPOSITORY, ROOT, awake, until
 from test_browser import NEXT_FRAME, PLAYER, _opens, _seen, _settled
 from test_export import FETCHED, formulas
 
@@ -27,7 +27,7 @@ PATHS = [*sorted(NOTEBOOKS.glob("*.ipynb")), *sorted(NOTEBOOKS.glob("documents/*
 NAMES = [path.relative_to(NOTEBOOKS).with_suffix("").as_posix() for path in PATHS]
 LABS = [name for name in NAMES if "/" not in name]
 MODULES = making._modules()
-PAGES = ["index", *NAMES, "api/index", *(f"api/{name}" for name in MODULES), "search"]
+PAGES = ["index", "hand_in", *NAMES, "api/index", *(f"api/{name}" for name in MODULES), "search"]
 WIDTHS = (1366, 900, 390)
 
 
@@ -145,6 +145,13 @@ def test_a_notebook_is_on_its_page_and_can_be_downloaded(path, site, parsed):
 def test_every_page_names_the_repository(parsed):
     for name, page in parsed.items():
         assert page.links.count(REPOSITORY) == 1, name
+
+
+def test_hand_in_page_has_the_commands_of_the_readme():
+    program = re.compile(r"```(?:sh|powershell)\n.*?```", re.S)
+    page = (making.HERE / "hand_in.md").read_text(encoding="utf-8")
+    readme = (ROOT / "README.md").read_text(encoding="utf-8")
+    assert program.findall(page) == program.findall(readme)[:2]
 
 
 NOT_HERE = "Run All|Trust Notebook|Ctrl\\+|Esc, then|in a terminal|on the site:"

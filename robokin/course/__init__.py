@@ -123,7 +123,7 @@ def solution(name: str) -> Note:
 def progress(name: str | None = None) -> Note:
     """Return the objectives reached in this kernel, for each lab or only for the lab `name`."""
     slugs = dict.fromkeys(k.partition(".")[0] for k in _verdicts) if name is None else [name]
-    lines = ["Checked since this kernel started:"] if _verdicts else []
+    lines = ["Checked since Python started:"] if _verdicts else []
     for slug in slugs:
         book = lab(slug)
         lines.append(f"{slug}:")
@@ -136,4 +136,4 @@ def progress(name: str | None = None) -> Note:
             objective = objectives.get(k) or "; ".join(e.title for e in mine.values())
             text = f"{word:8} {', '.join(mine)}: {objective}"
             lines += textwrap.wrap(text, 88, initial_indent="  ", subsequent_indent=" " * 11)
-    return Note("\n".join(lines) or "Nothing has been checked in this kernel.")
+    return Note("\n".join(lines) or "Nothing has been checked since Python started.")

@@ -15,7 +15,7 @@ from ..units import deg, mm
 from .answers import TROUBLE
 from .markdown import Text
 
-EMPTY = "There is no answer yet: write it in the cell above, then run both cells again."
+EMPTY = "There is no answer yet: write it into its cell, run that cell, then check again."
 
 
 @dataclass(frozen=True)

@@ -6,6 +6,7 @@ import contextlib
 import importlib
 import io
 import linecache
+import re
 import sys
 import tokenize
 import types
@@ -181,6 +182,7 @@ def _no_input(prompt: str = "") -> str:
 def _error(error: BaseException, source: str, name: str) -> Output:
     """Return an error as an output. Its traceback has the lines of cells only."""
     kind, says = told(error, source)
+    says += _suggestion(error)
     lines = []
     if isinstance(error, SyntaxError) and error.filename == name:
         lines += _line(error.lineno or 1, name)
@@ -201,6 +203,16 @@ def _error(error: BaseException, source: str, name: str) -> Output:
         "evalue": says,
         "traceback": [*lines, f"{kind}: {says}" if says else kind],
     }
+
+
+def _suggestion(error: BaseException) -> str:
+    """Return Python's suggestion for a misspelled name. Python adds it only when it prints."""
+    if not isinstance(error, (AttributeError, NameError)):
+        return ""
+    with contextlib.redirect_stderr(io.StringIO()) as printed:
+        sys.__excepthook__(type(error), error, error.__traceback__)
+    found = re.search(r"\. Did you mean: '.*'\?$", printed.getvalue().rstrip())
+    return found[0] if found else ""
 
 
 def _line(number: int, file: str, place: str = "cell") -> list[str]:

@@ -13,6 +13,7 @@ from docutils import nodes
 from sphinx.util import logging
 
 import robokin.course
+from robokin.course.book import find
 from robokin.course.export import mathml, named
 from robokin.course.ours import quiet
 from robokin.show.palette import PAGE
@@ -105,6 +106,8 @@ def _in_other_words(app: Any, docname: str, source: list[str]) -> None:
     for cell in notebook["cells"]:
         if cell["cell_type"] == "markdown":
             cell["source"] = OTHER_WORDS.sub(_replaced, "".join(cell["source"]))
+        elif _kind("".join(cell["source"]))["reports"]:
+            cell["outputs"] = []  # they say what to do in JupyterLab
     source[0] = json.dumps(notebook, ensure_ascii=False)
 
 
@@ -179,10 +182,9 @@ def _runnable(app: Any, pagename: str, template: str, context: Any, doctree: Any
     notebook = Path(app.env.doc2path(pagename))
     cells = json.loads(notebook.read_text(encoding="utf-8"))["cells"]
     code = [
-        {"place": _place(k), "id": cell["id"], "source": source, "asks": asks}
+        {"place": _place(k), "id": cell["id"], "source": source, **_kind(source)}
         for k, cell in enumerate(cells)
         if cell["cell_type"] == "code" and (source := "".join(cell["source"]))
-        for asks in (bool(re.search(r"^predict\(", source, re.M)),)
     ]
     made = json.loads(Path(app.srcdir, SIZES).read_text(encoding="utf-8"))
     sympy = any("sympy" in cell["source"] for cell in code)
@@ -193,6 +195,20 @@ def _runnable(app: Any, pagename: str, template: str, context: Any, doctree: Any
             parts[kind].append({"name": name, "size": size})
     lab = {"file": notebook.name, "version": made["version"], "cells": code} | parts
     context["lab"] = json.dumps(lab).replace("<", "\\u003c")
+
+
+def _kind(source: str) -> dict[str, Any]:
+    """What a page has to know of a cell that asks, reports or checks. The help for an exercise is
+    its hints and then its solution, as text, so that the page shows them without Python.
+    """
+    called = re.search(r"""^(predict|report|check)\((?:["']([\w.]+)["'])?""", source, re.M)
+    call, name = called.groups() if called else ("", None)
+    helps: list[str] = []
+    if call == "check" and name:
+        hints = range(1, 1 + len(find(name, "exercises").hints))
+        helps = [str(robokin.course.hint(name, n)) for n in hints]
+        helps.append(str(robokin.course.solution(name)))
+    return {"asks": call == "predict", "reports": call == "report", "helps": helps}
 
 
 # --- Docstrings -----------------------------------------------------------------------------------

@@ -2,12 +2,20 @@
 
 import {editor} from "./editor.js";
 import {keep, kept} from "./edits.js";
-import {runScripts, shown} from "./outputs.js";
+import {errorLine, runScripts, shown} from "./outputs.js";
 
 /** @import {Editor} from "./editor.js" */
 /** @import {Edit} from "./edits.js" */
 /** @import {Output} from "./outputs.js" */
-/** @typedef {{place: string, id: string, source: string, asks: boolean}} CellData */
+/**
+ * @typedef {object} CellData
+ * @property {string} place
+ * @property {string} id
+ * @property {string} source
+ * @property {boolean} asks
+ * @property {boolean} reports
+ * @property {string[]} helps  the hints and then the solution of the exercise that it checks
+ */
 
 export const STORED_RESULT = "The result below is the lab's, not yours.";
 const OLD_RESULT = `You changed this cell: press Run. ${STORED_RESULT}`;
@@ -29,13 +37,16 @@ export class Cell {
     this.run = () => run(this);
     this.complain = complain;
     this.text = data.source;
-    this.stopped = false;
+    this.stopped = this.failed = false; // its latest run
     this.stored = place.querySelector(":scope > .cell_output");
     /** @type {?HTMLElement} */
     this.own = null;
     /** @type {?Promise<Editor>} */
     this.editor = null;
-    if (data.asks) return;
+    if (data.asks) {
+      place.querySelector("details")?.replaceWith(label(`guess ${/\bp\d+/.exec(data.source)}`));
+      return;
+    }
     this.input = /** @type {HTMLElement} */ (place.querySelector(".cell_input"));
     this.says = element("p", "rk-status");
     this.says.setAttribute("role", "status");
@@ -44,10 +55,12 @@ export class Cell {
     this.edits = this.button("Edit", () => this.edit(true));
     this.resets = this.button("Reset", () => this.reset());
     this.bar = element("div", "rk-bar");
-    this.bar.append(this.runs, this.stops, this.edits, this.resets);
+    if (!data.reports) this.bar.append(this.runs, this.stops);
+    this.bar.append(this.edits, this.resets, label(name));
     this.stops.hidden = this.resets.hidden = true;
     if (this.stored) this.stored.before(this.bar, this.says);
     else place.append(this.bar, this.says);
+    this.help([...data.helps]);
     this.input.addEventListener("click", () => {
       if (!getSelection()?.toString()) this.edit(true);
     });
@@ -72,7 +85,7 @@ export class Cell {
     if (!inEditor || event.key !== "Enter" || !event.shiftKey) return;
     event.preventDefault();
     event.stopPropagation();
-    this.run();
+    if (!this.data.reports) this.run();
   }
 
   /** Shows the edit that this browser has kept, or asks whether to. @param {?Edit} edit */
@@ -122,6 +135,8 @@ export class Cell {
   changed(text) {
     const {id, source} = this.data;
     this.text = text;
+    this.failed = false;
+    void this.point(0);
     this.complain(keep(id, text === source ? null : {stored: source, text}));
     this.mark();
     this.say(text === source || this.own || !this.stored ? "" : OLD_RESULT);
@@ -137,7 +152,17 @@ export class Cell {
   }
 
   mark() {
-    if (this.resets) this.resets.hidden = this.text === this.data.source && !this.own;
+    const {resets, data, name} = this;
+    if (!resets) return;
+    const changed = this.text !== data.source;
+    resets.hidden = !changed && !this.own;
+    resets.textContent = changed ? "Reset" : "Lab's result";
+    resets.setAttribute("aria-label", `${resets.textContent} ${name}`);
+  }
+
+  /** Marks the line of an error; 0 is none. @param {number} line */
+  async point(line) {
+    if (line || this.editor) (await this.edit(false)).point(line);
   }
 
   /**
@@ -151,8 +176,30 @@ export class Cell {
     if (this.own) {
       this.place.append(this.own);
       runScripts(this.own);
+      void this.point(errorLine(outputs ?? []));
     }
     this.mark();
+  }
+
+  /** A button shows these texts one after the other, below the buttons. @param {string[]} texts */
+  help(texts) {
+    if (!texts.length) return;
+    const helps = element("div", "rk-helps");
+    const button = this.button("Hint", () => {
+      const text = element(texts.length > 1 ? "p" : "div", ""); // the solution is code
+      text.textContent = texts.shift() ?? "";
+      helps.append(text);
+      if (!texts.length) {
+        this.runs?.focus();
+        button.remove();
+        return;
+      }
+      button.textContent = texts.length > 1 ? "Hint" : "Solution";
+      button.setAttribute("aria-label", `${button.textContent} ${this.name}`);
+    });
+    helps.setAttribute("role", "status");
+    this.resets?.after(button);
+    this.says?.after(helps);
   }
 
   /** @param {boolean} running */
@@ -184,6 +231,13 @@ export class Cell {
       ),
     );
   }
+}
+
+/** A quiet name, such as "cell 3". @param {string} name */
+function label(name) {
+  const made = element("small", "rk-name");
+  made.textContent = name;
+  return made;
 }
 
 /**

@@ -6,6 +6,7 @@ import {guesses} from "./edits.js";
 /** @typedef {NotebookCell & {outputs: unknown[], execution_count: ?number}} CodeCell */
 
 const JUDGES = /^(?:check|progress)\(/m; // what they show depends on the reader's answers
+const OTHER_WORDS = /\n *<!-- on the site:.*?-->/gs; // conf.py puts them in place of the line above
 const ASKS = /\bpredict\(\s*(["'])([\w.]+)\1\s*\)/g;
 
 /**
@@ -20,15 +21,21 @@ export async function notebook(address, edits) {
   const file = await answer.json(),
     guessed = guesses();
   for (const cell of /** @type {CodeCell[]} */ (file.cells)) {
-    if (cell.cell_type !== "code") continue;
     const stored = [cell.source].flat().join("");
+    if (cell.cell_type !== "code") {
+      cell.source = lines(stored.replace(OTHER_WORDS, ""));
+      continue;
+    }
     const text = withGuesses(edits.get(cell.id ?? "") ?? stored, guessed);
     if (text === stored && !JUDGES.test(text)) continue;
-    cell.source = text.split(/(?<=\n)/);
+    cell.source = lines(text);
     [cell.outputs, cell.execution_count] = [[], null];
   }
   return JSON.stringify(file, null, 1) + "\n";
 }
+
+/** The lines of a text, with their ends. @param {string} text */
+const lines = text => text.split(/(?<=\n)/);
 
 /**
  * predict("lab.p1") becomes predict("lab.p1", "b") if the reader guessed b.

@@ -4,6 +4,7 @@
  * @typedef {object} Editor
  * @property {HTMLTextAreaElement} box
  * @property {(text: string) => void} set
+ * @property {(line: number) => void} point  marks a line, counting from 1, and no other one
  */
 /**
  * What we use of prism-code-editor.
@@ -12,6 +13,8 @@
  */
 /**
  * @typedef {object} PrismEditor
+ * @property {HTMLElement} container
+ * @property {HTMLCollection} lines  the lines of code; before them stands the textarea
  * @property {HTMLTextAreaElement} textarea
  * @property {(options: {value: string}) => void} setOptions
  */
@@ -50,7 +53,17 @@ async function prism(place, text) {
   const options = {language: "python", value: text, tabSize: 4, lineNumbers: false};
   /** @type {PrismEditor} */
   const made = createEditor(place, options, defaultCommands(), editHistory());
-  return {box: made.textarea, set: value => made.setOptions({value})};
+  return {
+    box: made.textarea,
+    set: value => {
+      made.setOptions({value});
+      made.container.scrollLeft = 0;
+    },
+    point: line => {
+      for (const [k, each] of [...made.lines].entries())
+        each.classList.toggle("rk-failed", k > 0 && k === line);
+    },
+  };
 }
 
 /** @type {(place: Element, text: string) => Editor} */
@@ -65,7 +78,7 @@ function plain(place, text) {
   box.addEventListener("input", () => (box.rows = box.value.split("\n").length));
   set(text);
   place.replaceChildren(box);
-  return {box, set};
+  return {box, set, point: () => {}};
 }
 
 /** Loads a style sheet once. @param {string} address */

@@ -4,7 +4,7 @@
 import {Cell, STORED_RESULT, element} from "./cell.js";
 import {notebook, offer} from "./download.js";
 import {elsewhere} from "./edits.js";
-import {FIGURE} from "./outputs.js";
+import {FIGURE, errorLine} from "./outputs.js";
 import {Ended, Python, mb} from "./python.js";
 import {Views} from "./views.js";
 
@@ -22,6 +22,7 @@ import {Views} from "./views.js";
  */
 /** @typedef {{outputs: Output[]}} Result */
 
+const LAST = /^(?:progress|report)\(/m; // the text next to these cells says how to hand in
 const ABOVE = "A cell above that this one needs ended with an error.";
 
 class Lab {
@@ -56,31 +57,44 @@ class Lab {
   introduce() {
     const {cells, data, note} = this,
       line = element("p", "rk-intro"),
-      more = data.sympy.length ? `, and SymPy, ${mb(total(data.sympy))} MB` : "";
-    for (const {bar} of cells) {
-      const cost = element("small", "rk-cost");
-      cost.textContent = `The first run fetches ${this.python.megabytes} MB.`;
-      bar?.append(cost);
-    }
-    const button = element("button", "");
-    button.type = "button";
-    button.textContent = "Download my notebook";
-    button.addEventListener("click", () => void this.download());
+      more = data.sympy.length ? `, and SymPy, ${mb(total(data.sympy))} MB` : "",
+      plain = document.querySelector("p.download");
+    for (const {bar, data, says} of cells)
+      if (says && LAST.test(data.source)) bar?.append(...this.handIn(says));
     line.append(
       "You can change and run the cells on this page. The first Run fetches Python once, ",
       `${mb(total(data.python))} MB${more}. `,
-      button,
+      ...this.handIn(note),
     );
-    document.querySelector("p.download")?.after(line, note);
+    const link = plain?.querySelector("a");
+    if (!plain || !link) return;
+    plain.before(line, note);
+    link.textContent = "Download the lab without my changes";
+    plain.parentElement?.append(plain);
   }
 
-  async download() {
-    const {cells, data, note} = this;
+  /** A button that downloads the reader's notebook, and a link. @param {HTMLElement} note */
+  handIn(note) {
+    const button = element("button", "rk-first"),
+      link = element("a", "");
+    button.type = "button";
+    button.textContent = "Download my notebook";
+    button.addEventListener("click", () => void this.download(note));
+    [link.href, link.textContent] = ["hand_in.html", "How to hand it in"];
+    return [button, link];
+  }
+
+  /** @param {HTMLElement} note  where to say what happened */
+  async download(note) {
+    const {cells, data} = this;
     const edited = cells.filter(({text, data}) => text !== data.source);
     try {
       const texts = new Map(edited.map(({text, data}) => [data.id, text]));
       offer(data.file, await notebook(data.file, texts));
-      note.textContent = `Downloaded ${data.file} with your changes and your guesses.`;
+      const failed = and(cells.filter(({failed, stopped}) => failed || stopped));
+      note.textContent =
+        `Downloaded ${data.file} with your changes and your guesses.` +
+        (failed && ` It failed or was stopped here: ${failed}. So run only the last cell there.`);
     } catch (error) {
       note.textContent = `The notebook could not be fetched (${error}).`;
     }
@@ -97,11 +111,11 @@ class Lab {
     cell.busy(true);
     try {
       await this.python.start(sentence => cell.say(sentence));
-      for (const cost of document.querySelectorAll(".rk-cost")) cost.remove();
-      if (await this.prepare(cell)) {
+      const needs = await this.prepare(cell);
+      if (needs) {
         cell.say("Running …");
         const outputs = await this.execute(cell, true);
-        cell.say(result(outputs));
+        cell.say(result(outputs) + before(needs));
       }
     } catch (error) {
       if (!(error instanceof Ended)) throw error;
@@ -114,29 +128,29 @@ class Lab {
   }
 
   /**
-   * Runs the cells that a cell needs; returns whether all of them ended without an error.
+   * Runs the cells that a cell needs and returns them, or null if one of them had an error.
    * @param {Cell} cell
    */
   async prepare(cell) {
     const {cells} = this,
       texts = cells.map(({text}) => text);
     const found = await this.python.call("needs", texts, cells.indexOf(cell)),
-      needs = /** @type {number[]} */ (found);
-    const stopped = needs.map(k => cells[k]).find(each => each.stopped);
+      needs = /** @type {number[]} */ (found).map(k => cells[k]);
+    const stopped = needs.find(each => each.stopped);
     if (stopped) {
       cell.say(`This cell needs ${stopped.name}, which was stopped.`, [
         ["Show it", () => reveal(stopped)],
       ]);
-      return false;
+      return null;
     }
-    for (const [done, k] of needs.entries()) {
+    for (const [done, each] of needs.entries()) {
       const left = needs.length - done;
       cell.say(`Running ${left} ${left === 1 ? "cell" : "cells"} above …`);
-      if (fine(await this.execute(cells[k], false))) continue;
-      cell.say(ABOVE, [["Show it", () => reveal(cells[k])]]);
-      return false;
+      if (fine(await this.execute(each, false))) continue;
+      cell.say(ABOVE, [["Show it", () => reveal(each)]]);
+      return null;
     }
-    return true;
+    return needs;
   }
 
   /**
@@ -153,7 +167,8 @@ class Lab {
       cell.stopped = true;
       throw error;
     }
-    if (asked || !fine(outputs) || cell.text !== cell.data.source) cell.show(outputs);
+    cell.failed = !fine(outputs);
+    if (asked || cell.failed || cell.text !== cell.data.source) cell.show(outputs);
     this.views.learn(outputs);
     return outputs;
   }
@@ -178,12 +193,22 @@ const fine = outputs => !outputs.some(({output_type}) => output_type === "error"
 
 /** What the outputs are. @param {Output[]} outputs */
 function result(outputs) {
-  if (!fine(outputs)) return "Python stopped with an error.";
+  const line = errorLine(outputs);
+  if (!fine(outputs)) return `Python stopped with an error${line ? ` in line ${line}` : ""}.`;
   if (!outputs.length) return "Done. This cell shows nothing.";
   if (outputs.every(output => "data" in output && FIGURE in output.data))
     return "Done, but this page cannot draw the picture again.";
   return "This is your result.";
 }
+
+/** Says which cells ran before one that needs them. @param {Cell[]} cells */
+function before(cells) {
+  const changed = and(cells.filter(({text, data}) => text !== data.source));
+  return cells.length ? ` Ran before it: ${and(cells)}.${changed && ` Changed: ${changed}.`}` : "";
+}
+
+/** Their names, such as "cell 1, cell 2 and cell 4". @param {Cell[]} cells */
+const and = cells => new Intl.ListFormat("en-GB").format(cells.map(({name}) => name));
 
 /** A verdict in the style of the engine's. @type {(first: string, sentence: string) => Output} */
 function verdict(first, sentence) {

@@ -23,11 +23,18 @@ export function shown(outputs, stored) {
   const pictures = [...(stored?.querySelectorAll(".robokin-figure, .output > img") ?? [])];
   for (const output of outputs) {
     if (output.output_type === "stream") made.append(text(output.text, output.name));
-    else if (output.output_type === "error")
+    else if (output.output_type === "error") {
       made.append(text(output.traceback.join("\n"), "error"));
-    else made.append(...data(output.data, pictures));
+      made.classList.add("rk-failed");
+    } else made.append(...data(output.data, pictures));
   }
   return made;
+}
+
+/** The line of its cell in which Python stopped with an error, or 0. @param {Output[]} outputs */
+export function errorLine(outputs) {
+  const [trace] = outputs.flatMap(each => ("traceback" in each ? [each.traceback] : []));
+  return Number(trace?.flatMap(line => /^cell, line (\d+)$/.exec(line)?.[1] ?? []).at(-1) ?? 0);
 }
 
 /** Makes the scripts of an element run, which has to be in the page. @param {Element} place */

@@ -51,7 +51,7 @@ export class Python {
   async start(say) {
     if (this.worker) return;
     this.fetched ??= await this.fetch(say);
-    say("Starting Python …");
+    say("Starting Python, which takes 5 to 20 seconds, on a phone longer …");
     this.worker = new Worker(new URL("./worker.js", import.meta.url), {type: "module"});
     this.worker.onmessage = ({data}) => this.hear(data);
     this.worker.onerror = event => {
