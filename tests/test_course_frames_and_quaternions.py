@@ -309,7 +309,7 @@ def test_slerp_test_may_pass_lists_and_must_try_large_rotations():
     small = check("frames_and_quaternions.3", compared((0, 1e-3, 30, 60, 90)))
     assert small.mistake == "accepts: the long way beyond 90°"
     less = check("frames_and_quaternions.3", compared((0, 1e-3, 30, 60, 120, 160)))
-    assert less.mistake == "accepts: no way beyond 170°"
+    assert less.mistake == "accepts: no path beyond 170°"
     assert check("frames_and_quaternions.3", compared(large, (0, 1))).mistake == "accepts: lerp"
 
 

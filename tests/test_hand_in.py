@@ -277,7 +277,7 @@ def test_complete_session_writes_a_report(tmp_path):
         said = kernel.run(REPORT)
         assert said.startswith("Running your lab again.") and page.name in said
         assert "start_here.1: failed" in said and "1 of 1 predictions made" in said
-        assert "Cells that raise an error: cell [2] (ZeroDivisionError)." in said
+        assert "Cells that raise an error: cell [2] (ZeroDivisionError), cell [3]" in said
         data = report_data(page.read_text(encoding="utf-8"))
         assert data["who"] == "Ada" and data["exercises"][0]["state"] == "failed"
         before = page.read_bytes()

@@ -178,7 +178,7 @@ def test_paths_keep_their_clearance_and_sampled_obstacles_are_on_lever_ak():
 
 
 def test_more_pulses_do_not_always_take_more_time(capsys):
-    assert "more time if its motor then has the most" in flat("11", "pulses-look")
+    assert "more time if its motor then needs the most" in flat("11", "pulses-look")
     q = station_postures(LOADER, np.array([[600, -350, 50], [50, 250, 350]]) * mm) / deg
     seconds = {}
     for gears in ((18, 72, 72), (36, 72, 72), (18, 144, 72), (18, 72, 144)):
@@ -242,7 +242,7 @@ def test_rule_that_considers_only_the_size_of_a_turn_fails_in_the_stated_range()
 
 
 def test_three_windings_act_like_one_and_arctan_jumps():
-    ((_, says),) = mistakes("motor_synchronisation", "one more winding now and then")
+    ((_, says),) = mistakes("motor_synchronisation", "an extra winding now and then")
     assert "so the direction and the strength are right, but three windings draw current" in says
     field = np.array([1, 1j, -1, -1j])
     assert np.array([1, 1, 0, 1]) @ field == np.array([1, 0, 0, 0]) @ field == 1
@@ -251,7 +251,7 @@ def test_three_windings_act_like_one_and_arctan_jumps():
     with np.errstate(divide="ignore"):
         angle = np.arctan(20 / x) / deg
     steps = np.diff(angle)
-    assert options[1].reason.startswith("arctan(y / x) jumps there, and it changes on both sides.")
+    assert options[1].reason.startswith("arctan(y / x) jumps there, but it also varies on either side of the jump.")
     assert (abs(steps) > 100).sum() in (1, 2) and (abs(steps[:1900]) > 0).all()
     whole, middle = numbers(
         r"by (\d+) degrees, (\d+) of them in the second in the middle",

@@ -556,7 +556,7 @@ def test_joint_1_arrives_last_up_to_the_stated_speed():
 
 def test_other_elbow_exceeds_its_limit_except_at_the_workspace_boundary():
     words = flat("08", "rows-look")
-    assert "With the elbow flag −1, joint 3 is past its limit, except on the border" in words
+    assert "With the elbow flag −1, joint 3 is past its limit, except on the boundary" in words
     arm, rng = spbu_arm(5, 4), np.random.default_rng(8)
     low, high = arm.limits[2]
     points = rng.uniform([-9, -9, 0], 9, (4000, 3))

@@ -207,7 +207,7 @@ def test_least_blend_is_the_fraction_of_the_time_below_the_lowest_height():
 
 def test_lin_exceeds_joint_limits_for_the_stated_goals_and_ptp_does_not():
     text, made = flat("05", "ends-look"), run_cells("05", "ends-player")
-    assert "With LIN, the arm leaves the limits for x = −100, −50 and 0" in text
+    assert "With LIN, the arm goes outside the limits for x = −100, −50 and 0" in text
     assert made["race_x"][made["race_x"] <= 0].tolist() == [-100, -50, 0]
     assert "(At x = −150, part of the line is too close to the column to have a solution.)" in text
     s = np.linspace(0, 1, 2001)
