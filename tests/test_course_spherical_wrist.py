@@ -301,6 +301,11 @@ def test_every_line_is_feasible_but_only_with_a_tilted_tool(who):
         assert check("spherical_wrist.3", answer, who=who).mistake == mistake
     wrong_side = {"up": -up, "side": -side, "duration": line["duration"]}
     assert check("spherical_wrist.3", wrong_side, who=who).mistake == "tilted to the wrong side"
+    small = {"up": -np.sign(up) * 0.9 * n["most_tilt"], "side": 0.0, "duration": line["duration"]}
+    verdict = check("spherical_wrist.3", small, who=who)  # neither side is far enough
+    assert verdict.mistake == "tilted to the wrong side" and "to the other side" in verdict.says[0]
+    verdict = check("spherical_wrist.3", small | {"up": -small["up"]}, who=who)
+    assert verdict.holds or "to the other side" not in " ".join(verdict.says)
     twice = line | {"up": up * deg, "side": side * deg}
     verdict = check("spherical_wrist.3", twice, who=who)
     assert verdict.mistake == "deg twice" and "perpendicular to the line" in verdict.says[0]

@@ -1,6 +1,7 @@
 """The singularity explorer: its numbers match Python, and it explains the singular pose."""
 
 import json
+import re
 from functools import cache
 
 import numpy as np
@@ -94,6 +95,10 @@ def test_shown_numbers_match_python(opened):
         assert abs(shown.code(seen)["rates"][3]) == pytest.approx(wanted, rel=1e-6)
         bend = abs(q[10 * (place + 100), 4]) / deg
         assert f"{np.hypot(place, 2):.0f} mm from" in seen.says and f"{bend:.1f}°" in seen.says
+        turned = float(
+            re.search(r"Joint 4 is at (\S+)°", seen.says)[1].replace("\N{MINUS SIGN}", "-")
+        )
+        assert abs((turned - q[10 * (place + 100), 3] / deg + 180) % 360 - 180) <= 0.51
         told = shown.rk.locator("canvas").evaluate_all("all => all.map(e => e.ariaLabel)")
         assert seen.says in told[0] and f"{value:.2f} turns/s" in told[1] and "7.96" in told[1]
 

@@ -37,8 +37,8 @@ WORDS_HERE = {
     "turns": "{turns} turns/s",
     "degrees": "= {degrees}°/s",
     "free": "free",
-    "near": "The tool is {distance} mm from the singular pose; the angle between axes 4 and 6 is "
-    "{bend}°.",
+    "near": "The tool is {distance} mm from the singular pose. Joint 4 is at {turned}°; the angle "
+    "between axes 4 and 6 is {bend}°.",
     "isFree": "Singular: axes 4 and 6 are in line. Joint 4 is free: joint 6 can undo its "
     "rotation, so joint 4 need not turn at all.",
     "axis": "turns/s, with a miss of {miss} mm",

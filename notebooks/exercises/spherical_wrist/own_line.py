@@ -120,14 +120,15 @@ def too_near(given: Given, up: float, side: float, tilt: float, least: float) ->
     if max(abs(up), abs(side)) < 1e-3:
         return "not tilted", line
     other = passage(given, -up, -side)[0]
-    if other >= given["least_distance"]:
-        line += f" With the same tilt to the other side, it would be {other:.4f}."
-        if keeps(given, side, up):
-            line += " With up and side swapped, it would also be right."
-        return "tilted to the wrong side", line
-    if keeps(given, side, up):
+    swapped = keeps(given, side, up)
+    if swapped and not other >= given["least_distance"]:
         line += f" With up and side swapped, it would be {passage(given, side, up)[0]:.4f}."
         return "up and side swapped", line
+    if other > least + 1e-4:
+        line += f" With the same tilt to the other side, it would be {other:.4f}."
+        if swapped:
+            line += " With up and side swapped, it would also be right."
+        return "tilted to the wrong side", line
     return "too near the singularity", line
 
 

@@ -245,6 +245,10 @@ function told(words, [place, miss], q, speed) {
     ...where,
     speed: fill(words.turns, {turns: turns(size / TURN)}),
     same: fill(words.degrees, {degrees: number(degrees(size), 0)}),
-    says: fill(words.near, {distance, bend: number(degrees(bend), 1)}),
+    says: fill(words.near, {
+      distance,
+      turned: number(degrees(q[JOINT]), 0),
+      bend: number(degrees(bend), 1),
+    }),
   };
 }
