@@ -704,7 +704,7 @@ def test_submitted_test_must_accept_correct_programs_and_refuse_wrong_ones():
 
     assert check("made.3", good).holds and check("made.3", asserts).holds
     assert check("made.3", lambda program: True).mistake == "accepts every program"
-    assert check("made.3", lambda program: False).mistake == "refuses every program"
+    assert check("made.3", lambda program: False).mistake == "rejects every program"
     verdict = check("made.3", lambda program: program(2) == 4)
     assert verdict.mistake == "accepts: square" and verdict.points == 0.8
     assert check("made.3", lambda program: program.__name__ == "no").mistake

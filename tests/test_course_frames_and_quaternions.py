@@ -325,7 +325,7 @@ def test_refusal_shows_the_last_call_and_asks_about_nan_for_equal_rotations():
 
     verdict = check("frames_and_quaternions.3", by_section_6)
     told = " ".join(verdict.says)
-    assert verdict.mistake == "refuses every program" and "s = 0.25" in told
+    assert verdict.mistake == "rejects every program" and "s = 0.25" in told
     assert "a = [0.2582, 0.5164, -0.2582, 0.7746]" in told and "0/0" in told
 
     def refuses(lead):
@@ -343,7 +343,7 @@ def test_test_that_refuses_a_correct_program_hears_of_a_wrong_one_that_it_accept
         return bool(abs(np.asarray(lead(a, b, 0.5)) - right).max() < 1e-6)
 
     verdict = check("frames_and_quaternions.3", half_way)
-    assert verdict.mistake == "refuses a correct program"
+    assert verdict.mistake == "rejects a correct program"
     assert "the result with the other sign" in verdict.case
     assert "It also accepts a wrong program, nlerp: It moves along the chord" in verdict.says[-1]
 

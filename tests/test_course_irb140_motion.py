@@ -330,7 +330,7 @@ def test_correct_programs_are_accurate_and_constant_tests_do_not_pass():
         for what, text in exercise.rights:
             error = abs(exercise.program(text)(_wrapped(q), t) - v)
             assert error[1:-1].max() < 3e-4 and error.max() < 0.06, what
-    for name in ("refuses every program", "accepts every program"):
+    for name in ("rejects every program", "accepts every program"):
         verdict = check("irb140_motion.3", lambda speeds, name=name: name.startswith("accepts"))
         assert verdict.mistake == name and not verdict.holds
 

@@ -226,7 +226,7 @@ def _tasks(count, turn, gap):
 
 @pytest.mark.parametrize(
     "turn, gap, mistake",
-    [(80, 0.004, "refuses a correct program"), (170, 0.03, "refuses a correct program")],
+    [(80, 0.004, "rejects a correct program"), (170, 0.03, "rejects a correct program")],
 )
 def test_test_that_demands_more_than_promised_is_reported(turn, gap, mistake):
     def strict(safe):

@@ -180,7 +180,7 @@ def test_only_certain_wrong_programs_pass_at_regular_angles():
     ("test", "mistake"),
     [
         (_judges([0.3, 1.0], 1e-10), "accepts: the regular formulas near the singularity"),
-        (_judges([0.3, 1.0, 3.0], 1e-17), "refuses every program"),
+        (_judges([0.3, 1.0, 3.0], 1e-17), "rejects every program"),
         (
             _judges([0, 1e-8, 1e-4, 1, 2, np.pi], 1e-10),
             "accepts: the regular formulas at theta = 180 degrees",
@@ -200,7 +200,7 @@ def test_only_certain_wrong_programs_pass_at_regular_angles():
         ),
         (
             lambda p: bool(np.allclose(p(zyz(3, 0, 2), 1), (0, 0, 5 - 2 * np.pi))),
-            "refuses a correct program",
+            "rejects a correct program",
         ),
     ],
 )

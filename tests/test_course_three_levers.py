@@ -178,7 +178,7 @@ def test_tests_for_least_movement_get_the_expected_verdicts():
     assert check("three_levers.2", asserting).holds
     stays = check("three_levers.2", without_the_gripper)
     assert not stays.holds and stays.mistake == "accepts: it stays where it is"
-    assert check("three_levers.2", the_same_angles).mistake == "refuses a correct program"
+    assert check("three_levers.2", the_same_angles).mistake == "rejects a correct program"
     assert not check("three_levers.2", one_task).holds
 
 
@@ -200,10 +200,10 @@ def least_test(at=1e-5, limit=1e-6, plus=0.02 * deg, relative=0.0):
     [
         (least_test(), None),
         (least_test(relative=1e-5), None),
-        (least_test(at=1e-9, relative=1e-5), "refuses a correct program"),
+        (least_test(at=1e-9, relative=1e-5), "rejects a correct program"),
         (least_test(at=1e-3), "accepts: rounded to hundredths of a degree"),
-        (least_test(limit=0), "refuses a correct program"),
-        (least_test(plus=0.01 * deg), "refuses a correct program"),
+        (least_test(limit=0), "rejects a correct program"),
+        (least_test(plus=0.01 * deg), "rejects a correct program"),
         (least_test(plus=0.05 * deg), "accepts: S up to 0.028° above the minimum"),
         (least_test(plus=0.15 * deg), "accepts: a step of 0.1°"),
     ],

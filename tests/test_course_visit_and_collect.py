@@ -75,7 +75,7 @@ def test_correct_tests_pass(answer):
     [
         (judge_on(POINTS), "accepts: not a number on axis 1"),
         (judge_on(np.vstack([POINTS, AXIS[:2]])), "accepts: not a number on the border"),
-        (judge_on(np.vstack([POINTS, AXIS]), shape=False), "accepts: a matrix of one row"),
+        (judge_on(np.vstack([POINTS, AXIS]), shape=False), "accepts: a matrix with one row"),
         (judge_on(np.vstack([POINTS, AXIS]), limits=lambda q: True), "accepts: the other elbow"),
         (
             judge_on(np.vstack([POINTS, AXIS]), limits=lambda q: within(ARM, q).all()),
@@ -87,7 +87,7 @@ def test_correct_tests_pass(answer):
         ),
         (
             judge_on(np.vstack([POINTS, AXIS]), near=lambda gap: np.linalg.norm(gap) < 1e-7),
-            "refuses a correct program",
+            "rejects a correct program",
         ),
         (
             lambda inverse: all(
@@ -104,12 +104,12 @@ def test_correct_tests_pass(answer):
             judge_on(np.vstack([POINTS, AXIS]), near=lambda gap: (abs(gap[[0, 2]]) < 1e-6).all()),
             "accepts: arccos for atan2",
         ),
-        (judge_on([[2, 3, 2]]), "accepts: the answer of one example"),
+        (judge_on([[2, 3, 2]]), "accepts: the answer to one example"),
         (judge_on(abs(POINTS)), "accepts: arctan for atan2"),
-        (judge_on(BOX), "refuses every program"),
+        (judge_on(BOX), "rejects every program"),
         (
             lambda inverse: all(np.allclose(inverse(p), ARM.ik(p)[0]) for p in POINTS),
-            "refuses a correct program",
+            "rejects a correct program",
         ),
     ],
 )

@@ -36,6 +36,9 @@ LAB = [
         ("a += 1", (), [3]),
         ("[a for a in range(3)]", (), []),
         ("for a in range(3):\n    print(a)", (), []),
+        ("if 1:\n    a = 2\n    print(a)", (), []),
+        ("if 1:\n    a = 2\nprint(a)", (), [3]),
+        ("if b:\n    a = 2\nelse:\n    print(a)", (), [1, 2, 3]),
         ("def f():\n    return np.pi", (), [0]),
         ("lambda: [np.pi for _ in range(3)]", (), [0]),
         ("c", (), []),  # a question never runs for another cell

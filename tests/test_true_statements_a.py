@@ -248,7 +248,7 @@ def test_distances_from_public_models_are_as_stated():
             r"without the negation, it is (\d+) mm away when q2 = 30", comment
         )
     assert "exactly\n10 mm away, in every posture" in lab
-    assert "at every posture the flange is 10 mm away and has the same orientation" in table
+    assert "in every posture the flange is displaced by 10 mm and has the same orientation" in table
     assert "flange is 10 mm from ours at every posture" in comment
     rows = {row[0]: row[1:] for row in re.findall(r"^\| (.*?) \| (.*?) \| (.*?) \|", table, re.M)}
     assert rows["upper arm, mm"] == ("350", "360")

@@ -95,7 +95,7 @@ def test_joint_5_flattens_the_ellipsoid_of_the_held_tool_and_joint_3_that_of_the
         "07",
         "near-look",
         r"joint 5 to (\S+): the shortest semi-axis goes from (\S+) mm/s to (\S+)\..*for every "
-        r"\$q_5\$, (\S+), (\S+) and (\S+) mm/s.*joint 3 to (\S+)°: the ellipsoid becomes",
+        r"\$q_5\$ \((\S+), (\S+) and (\S+) mm/s\).*joint 3 to (\S+)°: the ellipsoid becomes",
     )
     before = wrist_speeds([0, 60, -170, 0, 40, 0])
     assert before == pytest.approx(np.array(stated) * mm, abs=0.5 * mm)
@@ -110,7 +110,7 @@ def test_joint_5_flattens_the_ellipsoid_of_the_held_tool_and_joint_3_that_of_the
 
 
 def test_speeds_grow_by_the_stated_factors_ten_times_closer_to_a_singularity():
-    told = said("07", "cross-look", r"grows (\S+) times at the wrist, and (\S+) times at the elbow")
+    told = said("07", "cross-look", r"grows by a factor of (\S+) at the wrist, (\S+) at the elbow")
     told += said(
         "07", "why", r"Farther out, its speed grows faster: by a factor of (\S+) from 100 to"
     )

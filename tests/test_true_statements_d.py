@@ -223,7 +223,8 @@ def test_straight_line_takes_longer_if_the_motor_at_the_limit_changes():
 
 def test_last_move_of_the_program_turns_alpha_by_the_stated_angle():
     onwards, back = numbers(
-        r"goes on by (\S+)° instead of turning back by (\S+)°\.", flat("11", "deeper-program-look")
+        r"increases by another (\S+)° instead of turning back by (\S+)°\.",
+        flat("11", "deeper-program-look"),
     )
     turn = 2 * np.degrees(np.arctan2(20, 500))
     assert [onwards, back] == pytest.approx([turn, 360 - turn], abs=0.05)
@@ -251,7 +252,9 @@ def test_three_windings_act_like_one_and_arctan_jumps():
     with np.errstate(divide="ignore"):
         angle = np.arctan(20 / x) / deg
     steps = np.diff(angle)
-    assert options[1].reason.startswith("arctan(y / x) jumps there, but it also varies on either side of the jump.")
+    assert options[1].reason.startswith(
+        "arctan(y / x) jumps there, but it also varies on either side of the jump."
+    )
     assert (abs(steps) > 100).sum() in (1, 2) and (abs(steps[:1900]) > 0).all()
     whole, middle = numbers(
         r"by (\d+) degrees, (\d+) of them in the second in the middle",

@@ -228,7 +228,7 @@ def test_another_factor_makes_another_point_the_nearest():
 def test_numbers_of_the_question_about_more_time_are_right():
     question, options, right = asked("visit_and_collect.p6")
     words = question + "".join(each.reason + each.second for each in options)
-    (T,) = numbers(r"The arm has (\d+) s now, twice the time of the opening", question)
+    (T,) = numbers(r"The arm has (\d+) s now, twice as long as in the opening", question)
     places, legs = opening(), table(opening())
     assert T == 2 * 7.5 and touched(T, places) == (1, 3) and options[right].text == "One: point 0."
     assert "take 5.0, 5.5, 6.0, 6.5 s" in question

@@ -271,7 +271,7 @@ def test_plot_includes_the_time_at_which_the_waiting_arm_starts():
 
 def test_arm_with_equal_links_can_dip_below_the_floor_from_the_origin():
     text = (book.OURS / "visit_and_collect/predictions.md").read_text(encoding="utf-8")
-    assert "for equal links with the tool on the origin" in " ".join(text.split())
+    assert "for equal links with the tool at the origin" in " ".join(text.split())
     arm = spbu_arm(4, 4)
     q = np.radians([[0, 60, 90], [0, 60, 0], [0, 60, -30]])  # the second is between the others
     heights = arm.fk(q).translation[:, 2]

@@ -1,4 +1,4 @@
-"""Exercises in writing a test, which must accept correct programs and refuse wrong ones."""
+"""Exercises in writing a test, which must accept correct programs and reject wrong ones."""
 
 import random
 from collections.abc import Callable, Mapping, Sequence
@@ -27,16 +27,16 @@ class NoResult(Exception):
 
 class Catch(Exercise):
     """An exercise in writing a test: a function that takes a program and returns True if the
-    program is correct. The test must accept the correct programs, and refuse the mistakes and a
+    program is correct. The test must accept the correct programs, and reject the mistakes and a
     program that always raises an error. If a wrong program raises an error that the test does not
-    catch, this counts as a refusal. A test may also refuse a program by a failed assertion; then
+    catch, this counts as a rejection. A test may also reject a program by a failed assertion; then
     returning nothing means that it accepts the program.
 
     The Markdown file contains the correct programs, a promise (what they guarantee, shown if the
-    test refuses one of them) and the mistakes, each as edits to the first correct program that they
+    test rejects one of them) and the mistakes, each as edits to the first correct program that they
     fit. All programs may use the names in the Python file, `code`. If this file defines
-    `refusal(inputs, result)`, that function returns an additional sentence about the last call of a
-    correct program that was refused.
+    `rejection(inputs, result)`, that function returns an additional sentence about the last call of a
+    correct program that was rejected.
 
     Each check runs the programs in a new random order, so that a test that counts its calls does
     not pass. The verdict names the first failure in the order of the Markdown file.
@@ -102,40 +102,40 @@ class Catch(Exercise):
     def _verdict(self, name: str, answer: Program, accepted: Sequence[bool]) -> Verdict:
         wrongs = [*(wrong[:2] for wrong in self.wrongs), RAISES]
         right, wrong = accepted[: len(self.rights)], accepted[len(self.rights) :]
-        refused = [each for each, yes in zip(self.rights, right, strict=True) if not yes]
+        rejected = [each for each, yes in zip(self.rights, right, strict=True) if not yes]
         slipped = [each for each, yes in zip(wrongs, wrong, strict=True) if yes]
-        if not refused and not slipped:
+        if not rejected and not slipped:
             line = f"It accepts {len(right)} correct programs and catches {len(wrong)} wrong ones."
             return Verdict(name, holds=True, says=(line,), points=1.0)
         count = (
-            f"It refuses {len(refused)} of {len(right)} correct programs and accepts "
+            f"It rejects {len(rejected)} of {len(right)} correct programs and accepts "
             f"{len(slipped)} of {len(wrong)} wrong ones."
         )
-        says = [self.promise, count] if refused else [slipped[0][1], count]
+        says = [self.promise, count] if rejected else [slipped[0][1], count]
         if not any(right) and sum(wrong) >= len(wrong) - 1:
             named = "True and False swapped"
-            says = ["It accepts the wrong programs and refuses the correct ones.", count]
+            says = ["It accepts the wrong programs and rejects the correct ones.", count]
         elif not any(accepted):
-            named = "refuses every program"
+            named = "rejects every program"
         elif all(accepted):
             named = "accepts every program"
-        elif refused:
-            named = "refuses a correct program"
+        elif rejected:
+            named = "rejects a correct program"
         else:
             named = f"accepts: {slipped[0][0]}"
-        if refused:
-            case = f"  a correct program that it refuses: {refused[0][0]}"
-            says += self._refusal(answer, refused[0][1])
-            if named == "refuses a correct program" and slipped:
+        if rejected:
+            case = f"  a correct program that it rejects: {rejected[0][0]}"
+            says += self._rejection(answer, rejected[0][1])
+            if named == "rejects a correct program" and slipped:
                 says.append(f"It also accepts a wrong program, {slipped[0][0]}: {slipped[0][1]}")
         else:
             case = f"  a wrong program that it accepts: {slipped[0][0]}"
-        points = round((len(accepted) - len(refused) - len(slipped)) / len(accepted), 2)
+        points = round((len(accepted) - len(rejected) - len(slipped)) / len(accepted), 2)
         return Verdict(name, mistake=named, says=tuple(says), case=case, points=points)
 
-    def _refusal(self, answer: Program, text: str) -> list[str]:
-        """The additional sentence for a test that refuses this correct program."""
-        if "refusal" not in self.code:
+    def _rejection(self, answer: Program, text: str) -> list[str]:
+        """The additional sentence for a test that rejects this correct program."""
+        if "rejection" not in self.code:
             return []
         program, calls = self.program(text), []
 
@@ -144,7 +144,7 @@ class Catch(Exercise):
             return calls[-1][1]
 
         run(answer, [(recorded,)])
-        return [self.code["refusal"](*calls[-1])] if calls else ["It never calls the program."]
+        return [self.code["rejection"](*calls[-1])] if calls else ["It never calls the program."]
 
 
 def _raises(*inputs: Any) -> Any:

@@ -21,7 +21,7 @@ EQUAL = (
 )
 
 
-def refusal(inputs: tuple[Any, ...], result: Any) -> str:
+def rejection(inputs: tuple[Any, ...], result: Any) -> str:
     """The last inputs that a correct program was given, and its result."""
     a, b, s = floats(inputs[0]), floats(inputs[1]), in_words(inputs[2])
     called = f"Your test last called it with a = {in_words(a)}, b = {in_words(b)}, s = {s}."

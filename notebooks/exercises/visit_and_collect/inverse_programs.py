@@ -13,7 +13,7 @@ from .shared import ARM, L1, L2, Floats
 LIMITS = np.array([pi, pi / 2, pi / 2])
 
 
-def refusal(inputs: tuple[Any, ...], result: Any) -> str:
+def rejection(inputs: tuple[Any, ...], result: Any) -> str:
     """The last point that a correct program was given, and its result."""
     p, q = np.array(inputs[0], dtype=float).reshape(3), np.asarray(result, dtype=float)
     if not workspace(L1, L2, p).all():

@@ -78,6 +78,10 @@ def reads(body: Sequence[ast.stmt], sure: set[str]) -> set[str]:
             found |= global_names(compile(ast.Expression(statement.iter), "cell", "eval"))[0] - sure
             found |= reads([*statement.body, *statement.orelse], sure | own)
             continue
+        if isinstance(statement, ast.If):
+            found |= global_names(compile(ast.Expression(statement.test), "cell", "eval"))[0] - sure
+            found |= reads(statement.body, sure) | reads(statement.orelse, sure)
+            continue
         # in a loop, since the statement may contain `continue` or `break`
         loop = ast.fix_missing_locations(ast.While(ast.Constant(True), [statement], []))
         read, written = global_names(compile(ast.Module([loop], []), "cell", "exec"))
