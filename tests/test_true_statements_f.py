@@ -52,8 +52,8 @@ def test_lerp_between_rotations_is_not_a_rotation():
         "Strictly between two different rotations, the result of lerp is not a rotation." in words
     )
     assert (
-        "If you divide it by its length (nlerp), you get a rotation again, but the speed is not constant."
-        in words
+        "If you divide it by its length (nlerp), you get a rotation again, but the speed is not "
+        "constant." in words
     )
     third = np.array([np.cos(120 * deg), np.sin(120 * deg), 0, 0])
     # this sum of two unit quaternions has length 1, so it is a rotation

@@ -35,8 +35,8 @@ class Catch(Exercise):
     The Markdown file contains the correct programs, a promise (what they guarantee, shown if the
     test rejects one of them) and the mistakes, each as edits to the first correct program that they
     fit. All programs may use the names in the Python file, `code`. If this file defines
-    `rejection(inputs, result)`, that function returns an additional sentence about the last call of a
-    correct program that was rejected.
+    `rejection(inputs, result)`, that function returns an additional sentence about the last call of
+    a correct program that was rejected.
 
     Each check runs the programs in a new random order, so that a test that counts its calls does
     not pass. The verdict names the first failure in the order of the Markdown file.
