@@ -61,8 +61,7 @@ function noted(g, marks, x, [left, right, top]) {
 
 /**
  * The text of the limits: next to their lines, clear of other text and almost clear of the curves.
- * At most three limits have text, those that are exceeded first. A limit for which there is no such
- * place has only its band.
+ * At most three limits have text. A limit for which there is no such place has only its band.
  * @param {Context} g
  * @param {Panel} panel
  * @param {Place[]} ys  the height of a value, for each line
@@ -76,14 +75,10 @@ function limitWords(g, panel, ys, times, x, [left, right, top, bottom], notes) {
   const found = [];
   /** @type {(k: number, side: number) => number} */
   const limitOf = (k, side) => panel.lines[k].limits?.[side] ?? NaN;
-  /** @type {(of: Panel["near"][0]) => number} */
-  const beyond = ([k, side]) =>
-    Math.max(...panel.lines[k].values.map(v => (side ? 1 : -1) * (v - limitOf(k, side)) || 0));
   const each = (right - left) / times.length,
-    near = [...panel.near].sort((a, b) => +(beyond(b) > 0) - +(beyond(a) > 0)),
-    lines = near.map(([k, side]) => ys[k](limitOf(k, side)));
+    lines = panel.near.map(([k, side]) => ys[k](limitOf(k, side)));
   g.font = font(10);
-  near.forEach(([which, side], k) => {
+  panel.near.forEach(([which, side], k) => {
     const line = panel.lines[which],
       limit = limitOf(which, side),
       at = lines[k],
