@@ -390,8 +390,9 @@ def test_limits_are_shown_for_joints_near_them():
         # joint 1 turns at 195 degrees/s; its limit is 200 degrees/s
         for t in (T, np.linspace(0, 130 / 195, 2001))
     )
-    assert [panel["near"] for panel in slow] == [[[[1, 0], [2, 1]]], [[]], [[]]]
-    assert [panel["near"] for panel in fast] == [[[[1, 0], [2, 1]]], [[[0, 1]]], [[]]]
+    # joint 3 first, because it exceeds its limit
+    assert [panel["near"] for panel in slow] == [[[[2, 1], [1, 0]]], [[]], [[]]]
+    assert [panel["near"] for panel in fast] == [[[[2, 1], [1, 0]]], [[[0, 1]]], [[]]]
 
 
 @pytest.mark.parametrize("stroke", [(0.0, 0.18), (0.05, 0.06), (-0.03, 0.2), (0.1, 0.1)])
@@ -1383,3 +1384,13 @@ def test_picture_requested_early_is_drawn_in_colour(page, blended):
     )
     awake(page)
     assert ink(page, ".rk-curves") and page.evaluate(PAINTED, ".rk-curves") > 5000
+
+
+def test_limits_that_are_exceeded_come_before_those_that_are_near():
+    """A panel labels at most three limits, so those that a motion exceeds must be first."""
+    q = np.zeros((2001, 6))
+    q[:, 0] = np.linspace(-178, 178, 2001) * deg  # near to both limits of 180 degrees
+    q[:, 1] = np.linspace(-89, 0, 2001) * deg  # near to the limit of -90 degrees
+    q[:, 2] = np.linspace(0, 57, 2001) * deg  # beyond the limit of 50 degrees
+    panel = animate(IRB140, T, q).data["panels"][0]
+    assert panel["near"] == [[[2, 1], [0, 0], [0, 1], [1, 0]]]

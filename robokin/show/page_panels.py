@@ -14,6 +14,7 @@ from .panels import near_limits
 # The number of steps in the greatest joint value, speed and acceleration. Joint values have finer
 # steps, because the arm is drawn from them, too.
 FINEST = (32000, 16000, 8000)
+PAST = 0.002  # an excess over a limit up to this value, in ° or mm, is due to rounding
 
 
 def joint_panel(
@@ -23,8 +24,9 @@ def joint_panel(
     shows.
 
     All motions share one scale, and the panel shows each limit that any motion comes near to, so
-    that the scale and the limits do not change while a slider moves. The limits of joints that are
-    not watched are not shown.
+    that the scale and the limits do not change while a slider moves. Limits that some motion
+    exceeds come first, since at most three get a label. The limits of joints that are not watched
+    are not shown.
     """
     per = ("", "/s", "/s²")[order]
     # for each arm, the least and greatest values: two arrays (motions, n)
@@ -49,15 +51,17 @@ def joint_panel(
     near = []
     for arm, pair in zip(arms, ends, strict=True):
         limits = arm.limits if order == 0 else arm.speed_limits if order == 1 else None
-        shown = np.zeros((len(arm.links), 2), dtype=bool)
+        shown = past = np.zeros((len(arm.links), 2), dtype=bool)
         if limits is not None:
             limits = limits if order == 0 else limits[:, None] * [-1, 1]
             limits = limits / np.where(arm.prismatic, unit["size"], deg)[:, None]
             ticks = np.array([seen["shift" if x else "turn"] for x in arm.prismatic])
             shown = np.any(near_limits(limits, *pair, ticks[:, 0], ticks[:, 1]), axis=0)
+            most = np.stack([-np.fmin.reduce(pair[0]), np.fmax.reduce(pair[1])], axis=-1)
+            past = most - limits * [-1, 1] > PAST
         if watch["joints"] is not None:
             shown[[j for j in range(len(shown)) if j not in watch["joints"]]] = False
-        near.append(np.argwhere(shown).tolist())
+        near.append(sorted(np.argwhere(shown).tolist(), key=lambda at: not past[tuple(at)]))
     word = ("angle" if "turn" in ranges else "position", "speed", "acceleration")[order]
     return {
         "label": f"{word}, {next(iter(axes.values()))['unit']}",
