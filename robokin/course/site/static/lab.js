@@ -94,7 +94,7 @@ class Lab {
       const failed = and(cells.filter(({failed, stopped}) => failed || stopped));
       note.textContent =
         `Downloaded ${data.file} with your changes and your guesses.` +
-        (failed && ` It failed or was stopped here: ${failed}. So run only the last cell there.`);
+        (failed && ` Failed or stopped here: ${failed}. So run only the last cell there.`);
     } catch (error) {
       note.textContent = `The notebook could not be fetched (${error}).`;
     }
