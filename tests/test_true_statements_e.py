@@ -832,7 +832,9 @@ def test_motors_reverse_in_the_last_third_of_the_straight_line():
 def test_answers_to_the_drag_tasks_of_lab_11_are_true():
     """The tasks are about path b, the limits of reach, the drift of the cycle and half steps."""
     start, loader = np.array([600, -350, 50]) * mm, loader_arm(0.45, 0.30)
-    goal = numbers(r"For \((\S+), (\S+), (\S+)\) mm, for example: this line", flat("11", "able"))
+    goal = numbers(
+        r"For \((\S+), (\S+), (\S+)\) mm, for example: on this line, no motor", flat("11", "able")
+    )
     share = np.linspace(0, 1, 2001)[:, None]
     line = start + share * (np.array(goal) * mm - start)
     turns = np.diff(station_postures(loader, line), axis=0)
@@ -844,11 +846,16 @@ def test_answers_to_the_drag_tasks_of_lab_11_are_true():
     made = run_cells("11", "drift-code")
     assert made["left_over"].tolist() == [1, 0, -1]
     assert "one pulse too many, and joint 3 one too few" in flat("11", "drift-look")
-    assert flat("11", "drift-look").count("To the left and towards the base")
+    words = "At 420 mm, counter-clockwise and slightly down"
+    assert (
+        words in flat("11", "drift-look")
+        and "stakes = [420, -180, 420]" in cells("11")["drift-code"]
+    )
     before = np.deg2rad([-30.0, 66, 110])
     after = before + np.deg2rad([0.1, 0, -1 / 40])
     one, two = loader.fk(before).translation, loader.fk(after).translation
-    assert np.cross(one, two)[2] > 0 and np.linalg.norm(two) < np.linalg.norm(one)
+    around, down = np.hypot(*(two - one)[:2]), one[2] - two[2]
+    assert np.cross(one, two)[2] > 0 and around / 20 < down < around / 5
     rows = {drive: len(phases(drive, "unipolar")) for drive in ("wave", "half-step")}
     eight, four, small, large = numbers(
         r"are (\S+) rows instead of (\S+), .* by (\d+)° instead of (\d+)°",

@@ -44,7 +44,7 @@ export function placeLabels(g, labels, [left, top, width, height], handles = [])
       [ax, ay] = away ?? [0.5, -0.5],
       [px, py] = [between(at[0], left, width), between(at[1], top, height)],
       close = dots.filter(
-        dot => Math.abs(dot.x - px) < wide + dot.r + 90 && Math.abs(dot.y - py) < dot.r + 110,
+        ({x, y, r}) => Math.abs(x - px) < wide + r + 90 && Math.abs(y - py) < r + 110,
       );
     let [least, x, y, place] = [Infinity, 0, 0, 0];
     for (let k = 0; k < (near ? NEAR : GAPS.length * TURNS); k++) {
@@ -57,12 +57,10 @@ export function placeLabels(g, labels, [left, top, width, height], handles = [])
       if (u !== between(u, left, width - wide) || v !== between(v, top, height - HIGH))
         cost += 5 * WORD;
       if (cost >= least) continue;
-      // objects and an index, since this loop takes most of the time
-      for (let i = 0; i < close.length && cost < least; i++) {
-        const dot = close[i],
-          r = dot.r;
-        if (dot.x > u - r && dot.x < u + wide + r && dot.y > v - r && dot.y < v + HIGH + r)
-          cost += dot.heavy;
+      // dots are objects, not arrays, since this loop takes most of the time
+      for (const {x, y, r, heavy} of close) {
+        if (x > u - r && x < u + wide + r && y > v - r && y < v + HIGH + r) cost += heavy;
+        if (cost >= least) break;
       }
       if (cost < least) [least, x, y, place] = [cost, u, v, k];
     }

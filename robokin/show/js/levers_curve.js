@@ -58,8 +58,8 @@ const closeUp = ({low, high, limits: [first, last]}) => {
 };
 
 /**
- * Draws S. With terms, the axis of alpha covers only the range, so that the reader sees the shape of
- * S. Otherwise it covers the limits of the joint, so that the reader sees the range grow and shrink.
+ * Draws S. With terms, the axis of alpha covers only the range, to show the shape of S. Otherwise
+ * it covers the limits of the joint, to show how the range grows and shrinks.
  * @param {HTMLCanvasElement} canvas
  * @param {Look} look
  * @param {?Costs} costs
