@@ -109,7 +109,7 @@ def faults(line: Line, numbers: Any) -> list[Fault]:
             says = f"Wanted 1 to {MOST_ARMS} arms, got {arms}."
         found.append((name if too_few else "no number of arms for a line", says))
     if arms > most:
-        says = f"You may use {most} arms at most. A bin with a smaller c needs fewer."
+        says = f"You may use {most} arms at most. A bin with a smaller c usually needs fewer."
         found.append(("more arms than allowed", says))
     return found
 

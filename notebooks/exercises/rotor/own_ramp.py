@@ -71,7 +71,7 @@ def faults(answer: Ramp, numbers: Any) -> list[Fault]:
     return found
 
 
-WAYS = "A ramp that begins lower, ends lower, or takes longer loses fewer steps."
+WAYS = "A ramp that begins lower, ends lower, or takes longer usually loses fewer steps."
 
 
 def why_lost(answer: Ramp, load: float) -> str:
