@@ -182,6 +182,9 @@ def test_rotor_responds_to_dragging_and_to_pulses(opened):
     after = shown.look()
     assert after.pixels[0] != before.pixels[0] and "44" in after.says
     shown.rk.get_by_role("button", name="Stop").click()
+    shown.slide("frequency", 100)  # the run no longer fits the settings
+    shown.look()
+    assert state.inner_text().startswith("Pulses sent: 0.")
     shown.type("load torque", 30)  # mN m, more than the holding torque of 20 mN m
     shown.look()
     assert state.inner_text() == "This row does not hold the load."

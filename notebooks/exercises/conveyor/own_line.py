@@ -47,7 +47,9 @@ def needed(numbers: Mapping[str, Any], place: tuple[float, float]) -> int:
 
 @cache
 def given(who: Any) -> Numbers:
-    """A belt, and a number of arms that is too small for the bin of the lab."""
+    """A belt for which the bound is too small, even with the best bin, and a number of arms that is
+    too small with the bin of the lab.
+    """
     roll = dice("conveyor", who)
     while True:
         values: dict[str, Any] = {
@@ -57,7 +59,8 @@ def given(who: Any) -> Numbers:
             "seeds": sorted(roll.sample(range(100), 3)),
         }
         most = needed(values, CORNER)
-        if not none_missed(values, (float(BIN[0]), float(BIN[1])), most):
+        enough = bounds(CORNER, values)["the bound"] == most
+        if not enough and not none_missed(values, (float(BIN[0]), float(BIN[1])), most):
             break
     units = {"v": ("mm/s", mm), "gap": ("mm", mm), "most": ("arms", 1.0)}
     return Numbers(values | {"most": most}, units)

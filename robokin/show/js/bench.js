@@ -94,12 +94,15 @@ export class Bench {
     return this.motor.load > this.motor.torque * Math.sqrt(x * x + y * y);
   }
 
-  /** Reacts to a changed setting. If `other`, the motor has changed and starts from rest. */
+  /**
+   * Reacts to a changed setting. The rotor starts from rest if its run no longer fits the settings,
+   * or if the motor is an `other` one.
+   */
   change(other = false) {
     this.motor = this.built();
     this.found = null;
-    if (other) this.begin();
-    else if (this.clock.playing) this.clock.time = 0;
+    if (this.clock.playing && !other) this.clock.time = 0;
+    else if (this.clock.shown || other) this.begin();
     else this.wake();
   }
 
