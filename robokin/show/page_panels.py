@@ -14,7 +14,6 @@ from .panels import near_limits
 # The number of steps in the greatest joint value, speed and acceleration. Joint values have finer
 # steps, because the arm is drawn from them, too.
 FINEST = (32000, 16000, 8000)
-PAST = 0.002  # an excess over a limit up to this value, in ° or mm, is due to rounding
 
 
 def joint_panel(
@@ -58,7 +57,7 @@ def joint_panel(
             ticks = np.array([seen["shift" if x else "turn"] for x in arm.prismatic])
             shown = np.any(near_limits(limits, *pair, ticks[:, 0], ticks[:, 1]), axis=0)
             most = np.stack([-np.fmin.reduce(pair[0]), np.fmax.reduce(pair[1])], axis=-1)
-            past = most - limits * [-1, 1] > PAST
+            past = (most - limits * [-1, 1]).round(2) > 0  # in ° or mm; less is due to rounding
         if watch["joints"] is not None:
             shown[[j for j in range(len(shown)) if j not in watch["joints"]]] = False
         near.append(sorted(np.argwhere(shown).tolist(), key=lambda at: not past[tuple(at)]))

@@ -64,7 +64,6 @@ export function blend(start, via, goal, fraction, s, corner = "parabola") {
   const first = lerp(start, via, Math.min(2 * share, 1 - 2 * b));
   if (x === 0) return first;
   const last = lerp(via, goal, Math.max(2 * share - 1, 2 * b));
-  if (x === 1) return last;
   let poses = [first, via, last];
   if (corner === "quintic") {
     poses = [
