@@ -172,6 +172,10 @@ def test_a_cell_runs_with_what_it_needs(lab):
     lab.run(POINT)
     assert lab.says(POINT) == "This is your result.", "Python still has the names"
     assert lab.cell(POINT).locator(".rk-mine").count() == 1
+    lab.button(POINT, "Lab's result").click()
+    lab.page.evaluate(NEXT_FRAME)
+    assert lab.cell(POINT).locator(".rk-mine, .rk-edited").count() == 0
+    assert lab.says(POINT) == "" and lab.shows(POINT) == stored
 
 
 def record(lab, name):

@@ -224,7 +224,6 @@ export function slerp(a, b, s) {
   for (let i = 0; i < 4; i++) same += a[i] * b[i];
   // so that rounding errors do not determine the direction of a half turn
   const sign = same < -1e-14 ? -1 : 1;
-  if (s === 1) return b.map(x => sign * x);
   for (let i = 0; i < 4; i++) {
     const apart = a[i] - sign * b[i],
       beside = a[i] + sign * b[i];
@@ -235,7 +234,7 @@ export function slerp(a, b, s) {
     whole = Math.sin(angle);
   const ofA = angle === 0 ? 1 - s : Math.sin((1 - s) * angle) / whole;
   const ofB = sign * (angle === 0 ? s : Math.sin(s * angle) / whole);
-  return a.map((x, i) => ofA * x + ofB * b[i]);
+  return a.map((part, i) => ofA * part + ofB * b[i]);
 }
 
 /**

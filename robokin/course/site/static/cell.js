@@ -144,10 +144,11 @@ export class Cell {
 
   /** Gives the stored cell back; the reader can undo this. */
   reset() {
-    const before = this.text;
+    const {source} = this.data,
+      before = this.text;
     this.show(null);
-    this.put(this.data.source);
-    if (before === this.data.source) return;
+    if (before === source) return this.changed(source); // there is nothing to edit
+    this.put(source);
     this.say("This is the lab's cell again.", [["Undo", () => this.put(before)]]);
   }
 
