@@ -695,7 +695,7 @@ def test_value_is_judged_with_the_students_numbers():
     assert check("made.2", "long", who="Ada").mistake == "another kind or shape"
 
 
-def test_submitted_test_must_accept_correct_programs_and_refuse_wrong_ones():
+def test_submitted_test_must_accept_correct_programs_and_reject_wrong_ones():
     def good(program):
         return program(3) == 6 and program(2) == 4
 

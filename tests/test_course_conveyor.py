@@ -64,6 +64,7 @@ def test_no_belt_works_with_the_bin_of_the_lab(who):
     numbers = own["v"], own["gap"], own["spread"]
     seeds, most = own["seeds"], own["most"]
     assert len(set(seeds)) == 3 and check("conveyor.1", line(own, CORNER, most), who=who).holds
+    assert line(own, CORNER, most)["least"] < most, "the bound is enough"
     assert not any(missed(*numbers, seed, CORNER, most) for seed in seeds)
     assert any(missed(*numbers, seed, CORNER, most - 1) for seed in seeds)
     assert any(missed(*numbers, seed, BIN, most) for seed in seeds)

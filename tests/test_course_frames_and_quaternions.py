@@ -313,7 +313,7 @@ def test_slerp_test_may_pass_lists_and_must_try_large_rotations():
     assert check("frames_and_quaternions.3", compared(large, (0, 1))).mistake == "accepts: lerp"
 
 
-def test_refusal_shows_the_last_call_and_asks_about_nan_for_equal_rotations():
+def test_rejection_shows_the_last_call_and_asks_about_nan_for_equal_rotations():
     a = unit(np.array([1.0, 2, -1, 3]))
     large = compared((30, 120))
 
@@ -328,14 +328,14 @@ def test_refusal_shows_the_last_call_and_asks_about_nan_for_equal_rotations():
     assert verdict.mistake == "rejects every program" and "s = 0.25" in told
     assert "a = [0.2582, 0.5164, -0.2582, 0.7746]" in told and "0/0" in told
 
-    def refuses(lead):
+    def rejects(lead):
         return large(lead) and False
 
-    told = " ".join(check("frames_and_quaternions.3", refuses).says)
+    told = " ".join(check("frames_and_quaternions.3", rejects).says)
     assert "Your test last called it with a = [" in told and "0/0" not in told
 
 
-def test_test_that_refuses_a_correct_program_hears_of_a_wrong_one_that_it_accepts():
+def test_test_that_rejects_a_correct_program_hears_of_a_wrong_one_that_it_accepts():
     a, b = (Quaternion.from_angle_axis(x * deg, (0.6, 0, 0.8)).wxyz for x in (10, 130))
 
     def half_way(lead):  # without the other sign, and only where nlerp is right

@@ -17,6 +17,7 @@ from conftest import ROOT, until
 from robokin import deg, three_lever
 from robokin.course.export import export
 from robokin.jobs.obstacles import distances, keeps, plan, via_path
+from robokin.jobs.obstacles.posture_grid import NEVER, coarse_search
 from robokin.show import joiner, live, markup, plan_explorer
 from robokin.show.plan_explorer import AWAY, FORBIDDEN, STEP
 
@@ -128,6 +129,18 @@ def test_cube_of_postures_agrees_with_distances_and_a_simple_search():
     assert (cube < AWAY).sum() > 300
     tips = ARM.points(curve)[:, 3]
     np.testing.assert_allclose(tips, np.tile(question["target"], (len(tips), 1)), atol=1e-5)
+
+
+def test_there_is_no_wave_where_there_is_no_plan():
+    """In steps of 12 degrees, the search arrives, but on a way that does not keep the distance."""
+    question = next(questions(1)) | {"obstacle": [0.0, 1.3], "target": [1.9, 0.3]}
+    question |= {"posture": START.tolist(), "distance": 1 / 7}
+    said = plan_explorer(ARM, START, (1.9, 0.3), (1.2, 1.3)).answer(question)
+    places = (np.array(question[key]) for key in ("posture", "target", "obstacle"))
+    steps, free, _ = coarse_search(ARM, *places, 1 / 7, STEP)
+    assert (steps < NEVER).sum() > 1000 and said["way"] == "none"
+    assert said["most"] == 0 and not (said["cube"] < AWAY).any()
+    np.testing.assert_array_equal(said["cube"] == AWAY, free)
 
 
 # --- Arrays in messages and files -----------------------------------------------------------------

@@ -625,6 +625,9 @@ def test_start_frequency_and_lost_steps_are_as_stated(capsys):
         "13", "missed-look", r"At (\d+) pulses .* at (\d+) it loses (\d+)\."
     )
     assert (top_said, after, lost) == (top, top + 1, 48 - steps(top + 1))
+    pace, mNm = said("13", "missed-look", r"at (\d+) pulses/s, a load torque of (\d+) mN m")
+    held = motor.run(np.arange(1, 49) / pace, np.ones(48), load=mNm / 1000)
+    assert held.lost == 0 and motor.run(np.arange(1, 49) / 100, np.ones(48), load=mNm / 1000).lost
     assert "motor_explorer(motor)" in cells("13")["load-explorer"]
     assert motor == made["Stepper"](rise=0), "the motor of the first view"
     assert repr(motor_explorer(motor)).endswith("44 steps lost.")

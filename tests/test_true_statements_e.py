@@ -846,7 +846,7 @@ def test_answers_to_the_drag_tasks_of_lab_11_are_true():
     made = run_cells("11", "drift-code")
     assert made["left_over"].tolist() == [1, 0, -1]
     assert "one pulse too many, and joint 3 one too few" in flat("11", "drift-look")
-    words = "At 420 mm, counter-clockwise and slightly down"
+    words = "Stakes at 420 mm: counter-clockwise, slightly down"
     assert (
         words in flat("11", "drift-look")
         and "stakes = [420, -180, 420]" in cells("11")["drift-code"]

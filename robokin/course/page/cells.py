@@ -75,11 +75,11 @@ def reads(body: Sequence[ast.stmt], sure: set[str]) -> set[str]:
     for statement in body:
         if isinstance(statement, ast.For):  # it sets its variables before its body reads them
             own = {node.id for node in ast.walk(statement.target) if isinstance(node, ast.Name)}
-            found |= global_names(compile(ast.Expression(statement.iter), "cell", "eval"))[0] - sure
+            found |= read_by(statement.iter) - sure
             found |= reads([*statement.body, *statement.orelse], sure | own)
             continue
         if isinstance(statement, ast.If):
-            found |= global_names(compile(ast.Expression(statement.test), "cell", "eval"))[0] - sure
+            found |= read_by(statement.test) - sure
             found |= reads(statement.body, sure) | reads(statement.orelse, sure)
             continue
         # in a loop, since the statement may contain `continue` or `break`
@@ -88,6 +88,11 @@ def reads(body: Sequence[ast.stmt], sure: set[str]) -> set[str]:
         found |= read - sure
         sure = sure | written if isinstance(statement, SETS) else sure  # others may not run
     return found
+
+
+def read_by(expression: ast.expr) -> set[str]:
+    """Return the global names that an expression reads."""
+    return global_names(compile(ast.Expression(expression), "cell", "eval"))[0]
 
 
 def global_names(code: CodeType) -> tuple[set[str], set[str]]:

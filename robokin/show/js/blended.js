@@ -41,13 +41,9 @@ export function motionOf(data, state) {
   const poseAt = between(state.start, state.via, state.goal);
   // without rotations, which take most of the time
   const [start, via, goal] = [state.start, state.via, state.goal].map(({place}) => ({place})),
-    placeAt = between(start, via, goal);
-  const poses = t.map(x => poseAt(x)),
-    q = follow(
-      arm,
-      poses.map(pose => ik(arm, pose)),
-      state.row,
-    ),
+    unturned = between(start, via, goal);
+  const rows = t.map(x => ik(arm, poseAt(x))),
+    q = follow(arm, rows, state.row),
     recorded = record(q, t, arm.prismatic, data.jumps),
     {missing} = recorded;
   const tool = q.map((row, i) => (missing[i] ? null : origin(fk(arm.chain, row))));
@@ -62,14 +58,7 @@ export function motionOf(data, state) {
     q,
     tool,
     gaps: new Set(recorded.gaps.flatMap((gap, i) => (gap ? [i] : []))),
-    near: passing(
-      data,
-      via.place,
-      x => placeAt(x).place,
-      t,
-      poses.map(({place}) => place),
-      missing,
-    ),
+    near: passing(data, via.place, x => unturned(x).place, t, missing),
     poseAt,
     times: times.sort((x, y) => x - y),
   };
@@ -148,12 +137,12 @@ export function motions(data, state) {
  * @param {Point} via
  * @param {(x: number) => Point} placeAt
  * @param {number[]} t
- * @param {Point[]} places
  * @param {boolean[]} missing
  * @returns {?Near}
  */
-function passing({unit}, via, placeAt, t, places, missing) {
+function passing({unit}, via, placeAt, t, missing) {
   const decimals = unit.size < 1 ? 1 : 3,
+    places = t.map(placeAt),
     far = places.map(place => distance(place, via) / unit.size);
   const steps = far.flatMap((_, i) => (i && !missing[i] && !missing[i - 1] ? [i] : []));
   let least = Infinity,

@@ -46,7 +46,7 @@ export function placeLabels(g, labels, [left, top, width, height], handles = [])
       close = dots.filter(
         ({x, y, r}) => Math.abs(x - px) < wide + r + 90 && Math.abs(y - py) < r + 110,
       );
-    let [least, x, y, place] = [Infinity, 0, 0, 0];
+    let [least, bestX, bestY, place] = [Infinity, 0, 0, 0];
     for (let k = 0; k < (near ? NEAR : GAPS.length * TURNS); k++) {
       const gap = GAPS[Math.floor(k / TURNS)],
         turn = (2 * Math.PI * k) / TURNS,
@@ -62,12 +62,12 @@ export function placeLabels(g, labels, [left, top, width, height], handles = [])
         if (x > u - r && x < u + wide + r && y > v - r && y < v + HIGH + r) cost += heavy;
         if (cost >= least) break;
       }
-      if (cost < least) [least, x, y, place] = [cost, u, v, k];
+      if (cost < least) [least, bestX, bestY, place] = [cost, u, v, k];
     }
     if (near && least > MOST) continue;
     if (place >= NEAR && !away) {
-      const u = between(px, x, wide),
-        v = between(py, y, HIGH);
+      const u = between(px, bestX, wide),
+        v = between(py, bestY, HIGH);
       // the line does not reach the dot at the point
       stroke(
         g,
@@ -79,7 +79,7 @@ export function placeLabels(g, labels, [left, top, width, height], handles = [])
         1,
       );
     }
-    write(g, text, x + 2, y + 12, color, 12, "left", weight);
+    write(g, text, bestX + 2, bestY + 12, color, 12, "left", weight);
   }
 }
 
