@@ -11,7 +11,7 @@ from typing import Any, overload
 import numpy as np
 
 from ._arrays import ArrayLike, Floats, components, sealed, stack
-from ._validate import broadcast, floats, instance, selected, shape_of
+from ._validate import AXES, broadcast, floats, instance, selected, shape_of
 from .quaternion import Batch, Quaternion, rounded
 
 HERE = Quaternion.identity()
@@ -91,8 +91,10 @@ class Transform(Batch):
 
     def __getitem__(self, index: Any) -> "Transform":
         whole = (*index, slice(None)) if isinstance(index, tuple) else (index, slice(None))
-        rotation = Quaternion._of(self.rotation.wxyz[whole])
-        return Transform._of(rotation, selected(self.translation[whole]))
+        place = self.translation[whole]
+        if place.ndim > AXES:  # a call for every pose would take a tenth of the time
+            selected(place)
+        return Transform._of(Quaternion._of(self.rotation.wxyz[whole]), place)
 
     @overload
     def __matmul__(self, other: "Transform") -> "Transform": ...

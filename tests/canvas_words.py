@@ -207,3 +207,31 @@ def contrast(one, other):
 
     high, low = sorted((light(one), light(other)), reverse=True)
     return (high + 0.05) / (low + 0.05)
+
+
+# From now on `window.covered` has, for each text that matches a pattern, how many pixels in these
+# colours its box covers when it is written.
+COVERED = """([pattern, names]) => {
+  window.covered = [];
+  const {strokeText} = CanvasRenderingContext2D.prototype;
+  CanvasRenderingContext2D.prototype.strokeText = function (text, x, y) {
+    if (RegExp(pattern).test(text)) {
+      const {a, e, f} = this.getTransform(), style = getComputedStyle(this.canvas);
+      const m = this.measureText(text), shift = {center: 0.5, right: 1}[this.textAlign] ?? 0;
+      const up = m.actualBoundingBoxAscent, down = m.actualBoundingBoxDescent;
+      const wide = a * m.width, high = a * (up + down);
+      // a copy, since Chromium warns about a canvas that is read often
+      const copy = new OffscreenCanvas(wide, high).getContext("2d", {willReadFrequently: true});
+      copy.drawImage(this.canvas, -a * (x - shift * m.width) - e, -a * (y - up) - f);
+      const {data} = copy.getImageData(0, 0, wide, high);
+      const wanted = names.map(name => style.getPropertyValue(`--rk-${name}`).trim().slice(1))
+        .map(hex => [0, 2, 4].map(k => parseInt(hex.slice(k, k + 2), 16)));
+      let count = 0;
+      for (let i = 0; i < data.length; i += 4)
+        count += data[i + 3] > 200 &&
+          wanted.some(rgb => rgb.every((c, k) => Math.abs(c - data[i + k]) < 30));
+      window.covered.push([text, count / a]);
+    }
+    return strokeText.call(this, text, x, y);
+  };
+}"""

@@ -76,8 +76,45 @@ def test_arms_start_at_their_bins_and_move_without_jumps(drawn):
         assert np.linalg.norm(at - BIN, axis=-1).min() < 1e-6
     walls = [face for face in named["faces"] if np.ptp(np.array(face)[:, 2])]
     assert len(walls) == 16  # four walls of four bins
-    labels = np.array(list(named["points"].values()))
-    assert (labels[:, 0] > WINDOW[:, 0].max() + 0.3).all(), "a label is not in front of the belt"
+
+
+def test_player_shows_a_belt_of_ones_own(monkeypatch):
+    monkeypatch.setattr("robokin.show.conveyor.animate", lambda *given, **named: (given, named))
+    own, gap = [0.35, -0.3, 0.25], 0.17
+    (_, clock, motions), named = conveyor_player(0.21, SPREADS, 2, bin_place=own, gap=gap, seed=82)
+    assert clock[0] == pytest.approx(0.6 * 200 * gap / 0.21)
+    (brought,) = named["quantities"].values()
+    walls = np.array([face for face in named["faces"] if np.ptp(np.array(face)[:, 2])])
+    for k, spread in enumerate(SPREADS):
+        stream = spaced(200, gap, spread, seed=82)
+        trips = serve(stream, 0.21, ALONG, ways_from(own), arms=2, pitch=1.0)
+        for i, (each, foot) in enumerate(zip(trips, named["bases"], strict=True)):
+            tool = spbu_arm(*LINKS).fk(motions[i][k]).translation
+            assert np.linalg.norm(tool - own, axis=-1).min() < 1e-6
+            box = walls.reshape(2, -1, 3)[i]
+            assert box[:, :2].mean(axis=0) == pytest.approx(foot + own[:2])
+            wanted = [((clock[0] < each.backs) & (each.backs <= now)).sum() for now in clock]
+            assert brought[i][k].tolist() == wanted and wanted[-1]
+
+
+def test_labels_stand_where_nothing_moves(drawn):
+    """Each count is above its own arm, and each name of a window in front of its own window."""
+    (_, _, motions), named = drawn
+    feet, arm = named["bases"], spbu_arm(*LINKS)
+    marks = {mark.name: mark.at.rows[0, 0] for mark in named["things"]}
+    assert list(marks) == [f"{what} {k + 1}" for what in ("arm", "window") for k in range(4)]
+    top = max(arm.frames(q).translation[..., 2].max() for q in motions)
+    strips = [np.array(face) for face in named["faces"] if np.array(face)[:, 0].min() > 0.66]
+    belt = max((np.array(face) for face in named["faces"]), key=lambda face: np.ptp(face[:, 1]))
+    assert len(strips) == 4 and np.allclose(belt[:, 0].mean(), WINDOW[0, 0])
+    for k, (foot, strip) in enumerate(zip(feet, strips, strict=True)):
+        assert marks[f"arm {k + 1}"][:2] == pytest.approx(foot)
+        assert marks[f"arm {k + 1}"][2] > top
+        # the strip is beside the belt and as long as the window
+        assert strip[:, 0].min() > belt[:, 0].max()
+        assert sorted({*strip[:, 1]}) == pytest.approx(foot[1] + ALONG[[0, -1]])
+        assert marks[f"window {k + 1}"][0] > strip[:, 0].max()
+        assert marks[f"window {k + 1}"][1] == pytest.approx(foot[1])
 
 
 def test_travel_time_depends_on_the_bin():
@@ -95,7 +132,12 @@ def test_travel_time_depends_on_the_bin():
         (dict(spreads=[0.5]), "spreads: wanted 2 to 6 increasing numbers"),
         (dict(spreads=[1, 0.5, 0]), "spreads: wanted 2 to 6 increasing numbers"),
         (dict(spreads=[0, 1.5]), "spreads: wanted 2 to 6 increasing numbers"),
-        (dict(arms=1), "arms: wanted"),
+        (dict(arms=0), "arms: wanted"),
+        (dict(rules="first come"), "rules: wanted True or False"),
+        (dict(bin_place=[2, 0, 0]), "bin_place: wanted a place"),
+        (dict(gap=-0.1), "gap: wanted one positive length in metres"),
+        (dict(gap=150), "gap: wanted 0.1 to 0.5 m, got 150"),
+        (dict(seed=0.5), "seed: wanted a whole number"),
     ],
 )
 def test_invalid_arguments_are_refused(wrong, says):

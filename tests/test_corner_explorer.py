@@ -8,6 +8,7 @@ from math import comb
 import numpy as np
 import pytest
 import test_explorers
+from canvas_words import RECORD, faults
 from test_explorers import GOAL, IRB140, POSES, SAMPLES, SCARA, START, VIA
 
 import robokin
@@ -244,6 +245,23 @@ def test_the_stroke_is_not_compared_with_the_angles(opened):
         assert "accelerates most" not in told
 
 
+@pytest.mark.parametrize("width", [390, 914])
+def test_numbers_of_both_scales_are_whole_for_a_short_motion(browser, opened, width):
+    places = [(0.2, 0.3, 0.12), (0.4, 0.1, 0), (0.2, -0.2, 0.2)]
+    stations = ScaraPose(places, np.array([0, 180, 90]) * deg)
+    with browser.new_context(viewport={"width": width, "height": 800}) as small:
+        small.add_init_script(RECORD)
+        shown = opened(corner(SCARA, *stations, row=SCARA.branch(+1)), SCARA, within=small)
+        shown.type("duration", 0.5)
+        shown.look()
+        words = [
+            word["text"] for each in shown.page.evaluate("canvasWords()") for word in each["words"]
+        ]
+        assert any(re.fullmatch("−[0-9]{5}", text) for text in words)
+        assert faults(shown.page) == []
+        shown.page.close()
+
+
 def test_page_reports_a_motion_out_of_reach(opened):
     far = Transform(VIA.rotation, (0.9, -0.1, 0.8))
     shown = opened(corner(IRB140, START, far, GOAL), IRB140)
@@ -261,7 +279,9 @@ def test_every_canvas_follows_the_theme_and_is_printed(opened):
     shown.look()
     assert shown.rk.locator("canvas:visible").count() == 3
     assert shown.rk.locator(".rk-told").is_visible()
-    assert not shown.rk.locator(".rk-handle:visible, input:visible").count()
+    assert not shown.rk.locator(".rk-handle:visible").count()
+    boxes = shown.rk.locator("input:visible")
+    assert boxes.count() == 2 and all(box.get_attribute("type") == "number" for box in boxes.all())
 
 
 def test_invalid_calls_are_refused():

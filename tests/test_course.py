@@ -5,6 +5,7 @@ the isolation of answers. The exercises of each lab have their own test file.
 import _thread
 import copy
 import random
+import re
 import signal
 import subprocess
 import sys
@@ -273,6 +274,41 @@ def test_errors_in_an_answer_are_named(name, capsys):
     assert verdict.mistake == name and not verdict.holds and words in repr(verdict)
     assert "height = 0.5, angle = 1" in verdict.case
     assert capsys.readouterr().out == ""
+
+
+SHIFT = Transform(translation=(0.1, 0.2, 0.3))
+ERRORS = {
+    "`pose.translation` is its position": [
+        lambda h, a: 2 * SHIFT,
+        lambda h, a: SHIFT - SHIFT,
+        lambda h, a: np.ones(3) - SHIFT,
+        lambda h, a: SHIFT + np.ones(3),
+        lambda h, a: np.linalg.norm(SHIFT),
+        lambda h, a: -SHIFT,
+        lambda h, a: float(SHIFT),
+    ],
+    "no `return`": [lambda h, a: h + print(), lambda h, a: None < h],
+    "`np.array(...)`": [lambda h, a: [h, a] - [a, h], lambda h, a: h * [h], lambda h, a: -(h, a)],
+    "`a[0]`": [lambda h, a: SHIFT.translation(0)],
+    None: [
+        lambda h, a: h / 0,
+        lambda h, a: np.ones(3) @ SHIFT,  # the order is wrong, not the kind
+        lambda h, a: SHIFT(h),
+        lambda h, a: SHIFT.position,
+        lambda h, a: h + "a",
+    ],
+}
+
+
+@pytest.mark.parametrize("words", ERRORS)
+def test_a_well_known_error_has_a_sentence_on_what_to_write(words):
+    for answer in ERRORS[words]:
+        line = check("made.1", answer).case.splitlines()[-1].strip()
+        advice = re.fullmatch(r"It raises .*? \(line \d+ of its cell\)\.(.*)", line)[1]
+        if words is None:
+            assert advice == ""
+        else:
+            assert advice.startswith(" ") and words in advice and advice.endswith((".", "?"))
 
 
 @pytest.mark.parametrize("answer", [loops, stubborn, late])

@@ -55,7 +55,10 @@ def missed(v, gap, spread, seed, place, arms):
 
 def line(own, place, arms, least=None):
     bound = math.ceil(2 * ways(place).min() * own["v"] / own["gap"])
-    return {"bin": list(place), "least": bound if least is None else least, "arms": arms}
+    numbers = own["v"], own["gap"], own["spread"]
+    lost = sum(missed(*numbers, seed, place, bound) for seed in own["seeds"])
+    least = bound if least is None else least
+    return {"bin": list(place), "least": least, "missed": lost, "arms": arms}
 
 
 @pytest.mark.parametrize("who", [f"student {k}" for k in range(8)])
@@ -65,6 +68,7 @@ def test_no_belt_works_with_the_bin_of_the_lab(who):
     seeds, most = own["seeds"], own["most"]
     assert len(set(seeds)) == 3 and check("conveyor.1", line(own, CORNER, most), who=who).holds
     assert line(own, CORNER, most)["least"] < most, "the bound is enough"
+    assert line(own, CORNER, most)["missed"] > 0
     assert not any(missed(*numbers, seed, CORNER, most) for seed in seeds)
     assert any(missed(*numbers, seed, CORNER, most - 1) for seed in seeds)
     assert any(missed(*numbers, seed, BIN, most) for seed in seeds)
@@ -79,9 +83,15 @@ def test_mistakes_in_lines_are_named():
     most, right = own["most"], line(own, CORNER, own["most"])
     assert check("conveyor.1", right, who="Ada").holds
     load = 2 * ways(CORNER).min() * own["v"] / own["gap"]
+    numbers = own["v"], own["gap"], own["spread"]
+    first = missed(*numbers, own["seeds"][0], CORNER, right["least"])
+    assert 0 < first < right["missed"]
     wrong = {
         "rounded down": right | {"least": math.floor(load)},
         "another bound": right | {"least": 30},
+        "one stream of three": right | {"missed": first},
+        "taken for missed": right | {"missed": 600 - right["missed"]},
+        "another number of missed objects": right | {"missed": 0},
         "more arms than allowed": right | {"arms": most + 1},
         "too few arms": line(own, BIN, 1),  # more than one arm would be busy all the time
         "millimetres for metres": right | {"bin": [350, -450]},

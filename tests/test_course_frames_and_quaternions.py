@@ -68,10 +68,17 @@ def joined(table, q, part):
     return seen
 
 
+def in_a_library_call(table, q, part):
+    offset, d, a, alpha = table.T
+    arm = Arm("table", dh_links(a, alpha, d, offset), [(-7, 7)] * len(q))
+    return arm.fk(q).inverse() @ Transform.from_matrix(part)
+
+
 @pytest.mark.parametrize(
     ("name", "answer"),
     [
         ("the shift back is left out", only_turned),
+        ("chained with Arm and dh_links", in_a_library_call),
         ("the chain from the wrong end", joined),
         ("the inverse of the product", lambda t, q, p: invert(flange(t, q) @ p)),
         ("from both sides", lambda t, q, p: invert(flange(t, q)) @ p @ flange(t, q)),

@@ -3,13 +3,25 @@ and the answer to every prediction is computed by another method.
 """
 
 import json
+import math
 import re
 
 import numpy as np
 import pytest
 from conftest import NOTEBOOKS
 
-from robokin import IRB140, Quaternion, Transform, blend, deg, differentiate, mm, nearest, ptp
+from robokin import (
+    IRB140,
+    Arm,
+    Quaternion,
+    Transform,
+    blend,
+    deg,
+    differentiate,
+    mm,
+    nearest,
+    ptp,
+)
 from robokin.course import book, check
 from robokin.course.questions import filled
 
@@ -22,7 +34,22 @@ START, VIA, GOAL, LEFT, RIGHT, ROW = (
 NAN = float("nan")
 
 
-# --- Exercise 1: the blend for a distance ---------------------------------------------------------
+# --- Exercise 1: the blend for a distance, and its acceleration -----------------------------------
+
+
+def _with_peak(blend_of):
+    """An answer that adds the greatest second difference of the path in the corner to the blend."""
+
+    def answer(distance, corner):
+        b = blend_of(distance, corner)
+        if np.isnan(b):
+            return b, b
+        s = 0.5 + np.linspace(-1, 1, 801) * b
+        path = blend(START, VIA, GOAL, b, s, corner=corner).translation
+        bends = np.linalg.norm(np.diff(path, n=2, axis=0), axis=1)
+        return b, bends.max() / (20 * (s[1] - s[0])) ** 2
+
+    return answer
 
 
 def _by_table(distance, corner):
@@ -76,17 +103,56 @@ def _by_hand(distance, corner):
     "answer", [_by_table, _by_bisection, _by_the_middle, _by_one_call, _by_hand]
 )
 def test_blends_found_by_other_methods_pass(answer):
-    verdict = check("irb140_motion.1", answer)
+    verdict = check("irb140_motion.1", _with_peak(answer))
     assert verdict.holds, verdict
+
+
+def test_blend_alone_and_an_acceleration_that_does_not_fit_the_blend_are_refused():
+    verdict = check("irb140_motion.1", _by_hand)
+    assert (
+        not verdict.holds and "wanted two numbers, the blend and the acceleration" in verdict.case
+    )
+    right = _with_peak(_by_hand)
+    for factor in (0, -1, 0.98, 1.02, NAN):
+        verdict = check(
+            "irb140_motion.1", lambda *case, f=factor: np.multiply(right(*case), (1, f))
+        )
+        assert not verdict.holds, factor
+    assert check("irb140_motion.1", lambda *case: np.multiply(right(*case), (1, 1.005))).holds
+
+
+def test_acceleration_in_the_solution_agrees_with_the_curve():
+    """The control poses of the quintic are at 0, 0.4 and 0.8 of the way to via. The curve has the
+    second derivative of a polynomial in the Bernstein form.
+    """
+    exercise = LAB.exercises["1"]
+    place = [pose.translation for pose in (START, VIA, GOAL)]
+    x = np.linspace(0, 1, 2001)[:, None]
+    for corner, shares in (("parabola", [1, 0]), ("quintic", [1, 0.6, 0.2])):
+        b, told = exercise.right(0.06, corner)
+        into, out = ([place[1] + 2 * b * k * (end - place[1]) for k in shares]
+                     for end in (place[0], place[2]))  # fmt: skip
+        controls = np.array([*into, *out[::-1]] if corner == "quintic" else [*into, out[0]])
+        n = len(controls) - 1
+        weights = [math.comb(n - 2, k) * x**k * (1 - x) ** (n - 2 - k) for k in range(n - 1)]
+        second = np.diff(controls, 2, axis=0)
+        bends = n * (n - 1) * sum(w * d for w, d in zip(weights, second, strict=True))
+        peak = np.linalg.norm(bends, axis=1).max() / (2 * b * 20) ** 2
+        assert told == pytest.approx(peak, rel=1e-6), corner
 
 
 def test_blend_in_the_task_matches_that_of_the_document():
     exercise = LAB.exercises["1"]
-    wanted = exercise.right(0.05, "parabola")
-    assert _gap(wanted, "parabola") == pytest.approx(50 * mm)
-    assert exercise.code["law"]((0.05, "parabola"), 0.06, wanted) == (
-        "should be 0.06652, so that the tool is 50.0 mm from via in the middle of the parabola; "
-        "with 0.06, it is 45.1 mm from via"
+    wanted = np.array(exercise.right(0.05, "parabola"))
+    assert _gap(wanted[0], "parabola") == pytest.approx(50 * mm)
+    law = exercise.code["law"]
+    assert law((0.05, "parabola"), np.array([0.06, 0.06]), wanted) == (
+        "the blend should be 0.06652, so that the tool is 50.0 mm from via in the middle of the "
+        "parabola; with 0.06, it is 45.1 mm from via"
+    )
+    assert law((0.05, "parabola"), wanted * [1, 2], wanted) == (
+        "the blend is right, but with it the tool's greatest acceleration in the corner is "
+        "0.0565 m/s², not 0.113 m/s²"
     )
 
 
@@ -98,7 +164,8 @@ def _by_arrays(q0, q1, s, limits):
     away = np.where(
         (values >= limits[:, :1]) & (values <= limits[:, 1:]), abs(values - q0[:, None]), np.inf
     )
-    return ptp(q0, values[range(6), away.argmin(axis=1)], s)
+    end = np.where(np.isfinite(away).any(axis=1), values[range(6), away.argmin(axis=1)], np.nan)
+    return q0 + np.multiply.outer(s, end - q0)
 
 
 def _by_loops(q0, q1, s, limits):
@@ -111,16 +178,22 @@ def _by_loops(q0, q1, s, limits):
                 value = b + k * 2 * np.pi
                 if low <= value <= high and (best is None or abs(value - a) < abs(best - a)):
                     best = value
-            row.append(float(a + share * (best - a)))
+            row.append(NAN if best is None else float(a + share * (best - a)))
         rows.append(row)
     return rows
 
 
 def _by_recursion(q0, q1, s, limits):
     def shifted(value, near, low, high):
-        if value - near > np.pi and value - 2 * np.pi >= low or value > high:
+        if value > high:
+            lower = value - 2 * np.pi
+            return shifted(lower, near, low, high) if lower >= low else NAN
+        if value < low:
+            higher = value + 2 * np.pi
+            return shifted(higher, near, low, high) if higher <= high else NAN
+        if value - near > np.pi and value - 2 * np.pi >= low:
             return shifted(value - 2 * np.pi, near, low, high)
-        if near - value > np.pi and value + 2 * np.pi <= high or value < low:
+        if near - value > np.pi and value + 2 * np.pi <= high:
             return shifted(value + 2 * np.pi, near, low, high)
         return value
 
@@ -133,6 +206,7 @@ def _by_masks(q0, q1, s, limits):
     low, high = limits.T
     travel = np.ma.masked_array(abs(values - q0), (values < low) | (values > high))
     end = values[travel.argmin(axis=0), range(6)]
+    end[travel.mask.all(axis=0)] = np.nan
     return np.stack([q0 + share * (end - q0) for share in s])
 
 
@@ -140,6 +214,7 @@ def _by_rounding(q0, q1, s, limits):
     end = q1 + 2 * np.pi * np.round((q0 - q1) / (2 * np.pi))
     end = np.where(end > limits[:, 1], end - 2 * np.pi, end)
     end = np.where(end < limits[:, 0], end + 2 * np.pi, end)
+    end[(end < limits[:, 0]) | (end > limits[:, 1])] = np.nan
     return (q0 + s[:, None] * (end - q0)).round(9)
 
 
@@ -147,6 +222,33 @@ def _by_rounding(q0, q1, s, limits):
 def test_shortest_ptp_motions_found_by_other_methods_pass(answer):
     verdict = check("irb140_motion.2", answer)
     assert verdict.holds, verdict
+
+
+def _in_a_library_call(q0, q1, s, limits):
+    return ptp(q0, nearest(Arm("arm", IRB140.geometry, limits), q1[None], q0), s)
+
+
+def test_library_call_leaves_a_joint_outside_its_limits_and_does_not_pass():
+    """`nearest` falls back to a value outside the limits where none is inside."""
+    verdict = check("irb140_motion.2", _in_a_library_call)
+    assert not verdict.holds and verdict.mistake == "a value outside the limits", verdict
+    assert "joint 3 has no value inside its limits of -230° and 50°" in verdict.case
+
+
+@pytest.mark.parametrize("without", ["q1", "the first value", "the nearest value", "NaN", "q0"])
+def test_one_turn_is_too_little_whatever_stands_in_for_the_value_that_is_missing(without):
+    def answer(q0, q1, s, limits):
+        end = q1.copy()
+        for joint, (low, high) in enumerate(limits):
+            values = [q1[joint] + 2 * np.pi * k for k in (-1, 0, 1)]
+            other = {"q1": q1[joint], "the first value": values[0], "q0": q0[joint], "NaN": NAN}
+            other["the nearest value"] = min(values, key=lambda x: abs(x - q0[joint]))
+            inside = [value for value in values if low <= value <= high] or [other[without]]
+            end[joint] = min(inside, key=lambda x: abs(x - q0[joint]))
+        return q0 + s[:, None] * (end - q0)
+
+    verdict = check("irb140_motion.2", answer)
+    assert not verdict.holds and verdict.mistake == "only one turn", verdict
 
 
 @pytest.mark.parametrize(
@@ -174,7 +276,8 @@ def test_slightly_wrong_value_is_called_nearly_right():
 
     def typed(distance, corner):
         fraction = distance / ({"parabola": 1 / 2, "quintic": 3 / 8}[corner] * D * 1.001)
-        return fraction if fraction <= 0.5 else NAN
+        fraction = fraction if fraction <= 0.5 else NAN
+        return fraction, {"parabola": 1, "quintic": 1.5}[corner] * D / (fraction * 400)
 
     verdict = check("irb140_motion.1", typed)
     assert verdict.mistake == "nearly right", verdict
@@ -184,17 +287,22 @@ def test_correct_motion_satisfies_its_laws():
     exercise = LAB.exercises["2"]
     for q0, q1, s, limits in exercise.cases:
         end = exercise.right(q0, q1, np.array([0.0, 1.0]), limits)
-        assert (end[0] == q0).all()
-        pose, wanted = IRB140.fk(end[1]).as_matrix(), IRB140.fk(q1).as_matrix()
-        assert np.allclose(pose, wanted, rtol=0, atol=1e-9)
         low, high = limits.T
-        assert ((low - 1e-9 <= end) & (end <= high + 1e-9)).all()
+        values = q1 + 2 * np.pi * np.arange(-9, 10)[:, None]
+        none = ~((low <= values) & (values <= high)).any(axis=0)
+        assert (np.isnan(end) == none).all() and not none.all()
+        assert (none | (end[0] == q0)).all()
+        pose = IRB140.fk(np.where(none, q1, end[1])).as_matrix()
+        assert np.allclose(pose, IRB140.fk(q1).as_matrix(), rtol=0, atol=1e-9)
+        assert (none | (low - 1e-9 <= end) & (end <= high + 1e-9)).all()
         for k in range(-4, 5):  # no other value inside the limits is nearer to the start
             other = q1 + 2 * np.pi * k
             inside = (low <= other) & (other <= high)
             assert (~inside | (abs(other - q0) >= abs(end[1] - q0) - 1e-9)).all()
         motion = exercise.right(q0, q1, s, limits)
-        assert np.allclose(motion, ptp(q0, end[1], s), rtol=0, atol=1e-12)
+        assert np.isnan(motion[:, none]).all()
+        there = ptp(q0, np.where(none, q0, end[1]), s)
+        assert np.allclose(motion[:, ~none], there[:, ~none], rtol=0, atol=1e-12)
 
 
 # --- Mistakes in exercises 1 and 2 ----------------------------------------------------------------
@@ -215,7 +323,7 @@ def test_every_listed_mistake_is_named(number):
 def test_unknown_mistake_is_refused_but_not_named(number):
     def stranger(*case):
         if number == "1":
-            return 0.2 + 0.1 * np.sin(50 * case[0]) + 0.03 * (case[1] == "quintic")
+            return 0.2 + 0.1 * np.sin(50 * case[0]) + 0.03 * (case[1] == "quintic"), case[0] ** 2
         q0, q1, s, _ = case
         return q0 * np.cos(s)[:, None] + q1 * np.sin(3 * s)[:, None]
 
@@ -227,7 +335,8 @@ def test_unknown_mistake_is_refused_but_not_named(number):
     ("number", "answer", "name"),
     [
         ("1", lambda d, corner: str(d), "another kind or shape"),
-        ("1", lambda d, corner: [0.1, 0.2], "another kind or shape"),
+        ("1", lambda d, corner: [0.1, 0.2, 0.3], "another kind or shape"),
+        ("1", lambda d, corner: 0.1, "another kind or shape"),
         ("1", lambda d, corner: [].append(d), "returns None"),
         ("1", lambda d, corner: print(d), "prints instead of returning"),
         ("2", lambda q0, q1, s, _: q0 + s @ (q1[:2] - q0), "raises an error"),
@@ -240,7 +349,7 @@ def test_unknown_mistake_is_refused_but_not_named(number):
             lambda q0, q1, s, _: ptp(q0, nearest(IRB140, q1[None], q0), s),
             "the limits of the IRB-140",
         ),
-        ("1", lambda d, corner: 0.123, "one answer to everything"),
+        ("1", lambda d, corner: (0.123, 0.05), "one answer to everything"),
     ],
 )
 def test_answers_of_the_wrong_type_are_reported(number, answer, name):
@@ -410,8 +519,8 @@ def test_answers_to_predictions_agree_with_other_methods():
     assert _right("p4") == f"{100 * slope(0.5):.1f}" and slope.deriv()(0.5) == 0
 
     before, after = _line_speeds(START, VIA, 1.0, 10), _line_speeds(VIA, GOAL, 0.0, 10)
-    number = float(_right("p5").split()[1])
-    assert number == pytest.approx((after - before)[2] / 0.01, rel=0.01)
+    number = float(re.match(r"About (\d+)°/s²:", _right("p5"))[1])
+    assert number == pytest.approx((after - before)[2] / 0.01 / deg, rel=0.01)
 
     assert _right("p6").startswith(f"{20 * 2**0.5:.1f} s")
 
@@ -421,7 +530,8 @@ def test_answers_to_predictions_agree_with_other_methods():
         rows = IRB140.ik(blend(START, VIA, GOAL, b, clock / 20, corner=corner))[:, ROW]
         found.append(abs(np.diff(np.unwrap(rows[:, 2]), 2)).max() / 0.005**2)
     assert 1.1 < found[1] / found[0] < 1.13 and found[2] / found[0] > 1.5
-    assert f"{found[1]:.2f}" in _right("p7")
+    number = float(re.search(r", ([\d.]+)°/s²:", _right("p7"))[1])
+    assert number == pytest.approx(found[1] / deg, rel=2e-3)
 
     def at(t):
         return IRB140.ik(LEFT.lerp(RIGHT, t / 20))[ROW]
@@ -454,7 +564,8 @@ def test_nothing_outside_the_predictions_reveals_an_answer():
         for id_, cell in CELLS.items()
         if not id_.startswith("predict-")
     )
-    answers = ["0.62 s", "290", "5.06", "187.5", "1.875", "91.7", "28.3", "0.1705", "3.42", "413"]
+    answers = ["0.62 s", "290", "5.06", "187.5", "1.875", "28.3", "9.77", "3.42", "413"]
+    answers += ["5239", "5255"]
     assert not [answer for answer in answers if answer in seen]
     assert not re.search(r"quicker|no joint keeps|doubles whenever|after the first NaN", seen)
 

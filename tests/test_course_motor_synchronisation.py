@@ -93,8 +93,11 @@ def test_correct_postures_pass_in_every_style(answer):
         (only_calls, "the shoulder is left out"),
         (posture(lambda x, y, b: right(x, y, b) % TURN), "alpha from 0° to 360°"),
         (posture(lambda x, y, b: 0 if x == y == 0 else right(x, y, b) - b), "the turn instead"),
-        (posture(right, beta=lambda b: math.pi - b), "the outer angle at the elbow"),
-        (posture(right, guard=False, beta=lambda b: math.pi - b), "the outer angle at the elbow"),
+        (posture(right, beta=lambda b: math.pi - b), "the exterior angle at the elbow"),
+        (
+            posture(right, guard=False, beta=lambda b: math.pi - b),
+            "the exterior angle at the elbow",
+        ),
         (lambda p, b: np.degrees(posture(right)(p, b)), "degrees for radians"),
     ],
 )
@@ -106,7 +109,9 @@ def test_mistakes_in_postures_are_named(answer, name):
 def move(who):
     own = variant("motor_synchronisation", who)
     ends = np.reshape([own[f"{end}_{x}"] for end in ("start", "goal") for x in "xyz"], (2, 3))
-    return own, station_postures(LOADER, ends), math.ceil((A + B) * 0.9 * deg / own["miss"] - 1e-9)
+    reach = np.array([A + B, A + B, B])  # from each joint to the end of the stretched arm
+    least = np.ceil(reach * 0.9 * deg / own["miss"] - 1e-9)
+    return own, station_postures(LOADER, ends), least
 
 
 def pulses(q, gears):
@@ -115,17 +120,22 @@ def pulses(q, gears):
 
 @pytest.mark.parametrize("who", [f"student {k}" for k in range(30)])
 def test_every_student_has_a_feasible_move(who):
-    own, q, gear = move(who)
-    for gears in ([gear] * 3, [gear, gear + 1, gear + 2]):
+    own, q, least = move(who)
+    for gears in (least, least + [0, 1, 2]):
         drive = {"gears": gears, "frequencies": list(frequencies(pulses(q, gears), own["most"]))}
         assert check("motor_synchronisation.2", drive, who=who).holds
     alpha = (q[:, 0] + np.pi) % TURN - np.pi
     assert abs(np.diff(alpha)[0]) > np.pi, "the move does not cross 180°"
+    shortest = pulses(q, least).max() / own["most"]
+    assert shortest < own["seconds"] < 1.2 * shortest + 0.11, "the limit does not bind"
+    fine = np.ceil(1.5 * least)
+    drive = {"gears": fine, "frequencies": frequencies(pulses(q, fine), own["most"])}
+    assert check("motor_synchronisation.2", drive, who=who).mistake == "geared too high"
 
 
 def test_mistakes_in_drives_are_named():
-    own, q, gear = move("Ada")
-    gears, most = [gear] * 3, own["most"]
+    own, q, gears = move("Ada")
+    most = own["most"]
     n = pulses(q, gears)
     turns = abs(np.diff(q, axis=0)[0])
     wrong = {
@@ -133,13 +143,44 @@ def test_mistakes_in_drives_are_named():
         "equal products": (gears, n.min() / n * most),
         "above the limit": (gears, frequencies(n, 1.2 * most)),
         "slower than the limit asks": (gears, frequencies(n, 0.5 * most)),
-        "geared too high": ([9 * gear] * 3, frequencies(n, most)),
-        "too coarse": ([gear - 1] * 3, frequencies(n, most)),
-        "the gears left out": ([gear, gear + 5, gear + 8], turns / turns.max() * most),
+        "geared too high": (9 * gears, frequencies(n, most)),
+        "too coarse": (gears - 1, frequencies(n, most)),
+        "the gears left out": (gears + [0, 5, 8], turns / turns.max() * most),
     }
     for name, (i, omega) in wrong.items():
         drive = {"gears": i, "frequencies": omega}
         assert check("motor_synchronisation.2", drive, who="Ada").mistake == name
+
+
+def test_reply_gives_both_postures_in_degrees_and_does_not_give_away_the_rule():
+    def low(point, before):
+        """Takes the elevation from arcsin, which is never above 90 degrees."""
+        alpha, gamma, beta = posture(right)(point, before)
+        u = np.hypot(*point[:2]) - E
+        h = np.hypot(u, point[2])
+        return [alpha, gamma - math.atan2(point[2], u) + math.asin(point[2] / h), beta]
+
+    verdict = check("motor_synchronisation.1", low)
+    assert verdict.mistake == "arcsin(z / h) for gamma 2"
+    asked, given = re.search(
+        r"α, γ, β should be (.*) degrees, not (.*); your", verdict.case
+    ).groups()
+    asked, given = (np.array([float(x) for x in each.split(", ")]) for each in (asked, given))
+    point, before = np.array([0, 0, 0.4]), given[0] * deg
+    assert asked == pytest.approx(np.degrees(posture(right)(point, before)), abs=0.01)
+    assert given == pytest.approx(np.degrees(low(point, before)), abs=0.01)
+    assert not any("arctan2" in line for line in verdict.says)
+
+
+def test_error_in_a_test_of_phases_is_said_to_be_in_the_test():
+    def shapeless(windings):
+        return bool((np.asarray(windings("wave", [1, 1, -1])) + np.ones((4, 4)) > 0).all())
+
+    verdict = check("motor_synchronisation.3", shapeless)
+    assert "the row before the first pulse is missing" in verdict.case
+    assert verdict.says[0].startswith(
+        "Your test has to return True or False; it raises ValueError: "
+    )
 
 
 def test_programs_missed_by_a_partial_test_are_named():
@@ -205,15 +246,16 @@ def test_test_must_check_every_row(rows, name):
 
 
 def test_messages_about_drives_show_different_numbers_and_not_the_answer():
-    own, q, gear = move("Ada")
-    n = pulses(q, [gear] * 3)
-    high = {"gears": [9 * gear] * 3, "frequencies": frequencies(n, own["most"])}
+    own, q, gears = move("Ada")
+    n = pulses(q, gears)
+    high = {"gears": 9 * gears, "frequencies": frequencies(n, own["most"])}
     told = " ".join(check("motor_synchronisation.2", high, who="Ada").says)
-    assert f"{gear} " not in told.replace(f"{9 * gear} ", "")
-    slow = {"gears": [gear] * 3, "frequencies": frequencies(n, 0.5 * own["most"])}
+    for gear in gears:
+        assert f" {gear:.0f} " not in told
+    slow = {"gears": gears, "frequencies": frequencies(n, 0.5 * own["most"])}
     told = " ".join(check("motor_synchronisation.2", slow, who="Ada").says)
     assert f"{n.max() / own['most']:.2f}" not in told
-    fast = {"gears": [gear] * 3, "frequencies": frequencies(n, 1.0001 * own["most"])}
+    fast = {"gears": gears, "frequencies": frequencies(n, 1.0001 * own["most"])}
     told = " ".join(check("motor_synchronisation.2", fast, who="Ada").says)
     runs, allowed = re.search(r"runs at (.*) pulses/s; at most (.*) are allowed\.$", told).groups()
     assert runs != allowed

@@ -2,6 +2,8 @@
 named.
 """
 
+import contextlib
+import io
 import json
 import math
 import re
@@ -45,6 +47,8 @@ def test_every_student_needs_a_ramp_and_can_find_one(who):
     load = own["load_inertia"]
     assert 1e-6 <= load < 4.1e-6 and 48 / MOTOR.start_frequency(load_inertia=load) > own["within"]
     f, swing = WEAK.start_frequency(load_inertia=load), math.sqrt((1e-6 + load) / WEAK.torque)
+    assert 1.15 < 48 / own["within"] / f < 1.3  # hint 2: about 1.2
+    assert (0.6 + 1.6) / 2 < 48 / own["within"] / f < 1.6
     made = {"start": 0.6 * f, "end": 1.6 * f, "seconds": 10 * swing}
     assert check("rotor.1", made, who=who).holds
 
@@ -79,9 +83,18 @@ def test_mistakes_in_ramps_are_named():
         "too slow": (0.5 * f, 0.9 * f, 0.1),
         "milliseconds for seconds": (0.6 * f, 1.6 * f, 160),
     }
+    told = {}
     for name, (start, end, seconds) in wrong.items():
         verdict = check("rotor.1", {"start": start, "end": end, "seconds": seconds}, who="Ada")
         assert verdict.mistake == name and verdict.points < 1
+        told[name] = " ".join(verdict.says)
+    mean = math.ceil(48 / own["within"])
+    assert f"at least {mean} pulses/s: raise `end`" in told["too slow"]
+    top = math.sqrt((0.6 * f) ** 2 + 48 * f / 160)  # where the ramp turns, after 24 pulses
+    reached = int(re.search(r"reaches only (\d+)", told["milliseconds for seconds"])[1])
+    assert reached == pytest.approx(top, abs=1)
+    slow = check("rotor.1", {"start": 0.6 * f, "end": 1.6 * f, "seconds": 0.35}, who="Ada")
+    assert slow.mistake == "too slow" and "shorten the ramp" in slow.says[0]
     # the shortest ramp on which the motor loses no steps is too short for the weak motor
     edge = next(
         r
@@ -101,7 +114,8 @@ def test_four_times_the_inertia_needs_twice_the_friction_to_halve_the_frequency(
     """If J, b and t are multiplied by 4, 2 and 2, the equation of motion remains the same."""
     options, right = filled(LAB.predictions["p1"])[1:]
     top = MOTOR.start_frequency()
-    assert options[right].text.startswith("Up to 72 pulses/s")
+    assert options[right].text.startswith("About half")
+    assert "halved, to 63 pulses/s. The motor reaches 72 pulses/s" in options[right].reason
     assert MOTOR.start_frequency(load_inertia=3e-6) == 72 > top / 2
     more = replace(MOTOR, damping=2 * MOTOR.damping)
     assert more.start_frequency(load_inertia=3e-6) == top / 2 == 63
@@ -118,6 +132,53 @@ def test_shortest_ramp_for_the_load_is_as_stated():
         if made_steps(MOTOR, ramp(48, 40, 160, ms / 1000), 3e-6) == 48
     ]
     assert kept == [least, *range(until + 10, 301, 10)] and again == least + 10
+
+
+def test_ramps_lose_steps_where_the_lab_says():
+    """Shorter ramps than the shortest one lose steps on the ramp; longer ones lose them after it,
+    when the lag passes half a turn.
+    """
+
+    def lost_at(ms):
+        "The time in ms at which the lag first exceeds half a turn."
+        run = MOTOR.run(ramp(48, 40, 160, ms / 1000), np.ones(48), 0, 3e-6)
+        behind = run.due - run.angle > math.pi
+        return 1000 * run.t[behind.argmax()] if behind.any() else None
+
+    for ms in (140, 150, 160):
+        assert lost_at(ms) < ms
+    for ms in (180, 190, 200):
+        assert lost_at(ms) > ms
+    assert lost_at(170) is lost_at(210) is None
+
+
+@pytest.mark.parametrize("ms", [50, 100, 200, 300])
+def test_a_short_move_does_not_reach_the_frequency_of_its_ramp(ms):
+    """The cell prints the highest frequency. Half of the pulses are sent on the way up."""
+    lab = json.loads((NOTEBOOKS / "13_rotor.ipynb").read_text(encoding="utf-8"))
+    (code,) = ["".join(cell["source"]) for cell in lab["cells"] if cell["id"] == "ramp-code"]
+    names = {"motor": MOTOR, "J": 1e-6}
+    with contextlib.redirect_stdout(io.StringIO()) as out:
+        exec(code.replace("t_r = 0.1", f"t_r = {ms / 1000}"), names)
+    printed = int(re.search(r"the ramp reaches (\d+) pulses/s", out.getvalue())[1])
+    top = math.sqrt(40**2 + 2 * 24 * 120 / (ms / 1000))
+    assert 0.985 * min(160, top) < printed <= math.ceil(min(160, top))
+
+
+def test_step_of_the_iron_rotor_is_as_derived():
+    """The poles are half as far apart as the windings are in the ring of the pulls."""
+    lab = json.loads((NOTEBOOKS / "13_rotor.ipynb").read_text(encoding="utf-8"))
+    source = {cell["id"]: "".join(cell["source"]) for cell in lab["cells"]}
+    call = re.search(r"Stepper\(.*\)(?=\))", source["pull-explorer"])[0]
+    motor = eval(call, {"Stepper": Stepper})
+    said = re.search(
+        r"same after (\d+)°.*\\sin (\d)\(.*, (\d+)° apart.*is (\d+)° − (\d+)° = (\d+)°",
+        source["pull-iron"],
+    )
+    tooth, teeth, pole, first, second, step = map(int, said.groups())
+    assert teeth == motor.periods and tooth == 360 / teeth == second
+    assert first == pole == 360 / (2 * motor.windings)
+    assert step == pole - tooth == pytest.approx(math.degrees(motor.step))
 
 
 def test_second_integrator_also_loses_steps_in_multiples_of_four():

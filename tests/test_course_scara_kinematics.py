@@ -236,7 +236,7 @@ def test_tool_rotates_with_both_joints_as_prediction_1_says():
 
 def test_answer_to_prediction_3_agrees_with_inverse_kinematics():
     q1 = SCARA.ik(ScaraPose([0.2, 0.2, 0.1]))[1, 0]
-    assert _right("p3") == f"{q1 / deg:.1f}°: the triangle is mirrored in the line to the place."
+    assert _right("p3") == f"{q1 / deg:.1f}°: the triangle is mirrored in the line to the point."
 
 
 def test_arcsine_misses_the_target_as_prediction_4_says():
@@ -250,7 +250,7 @@ def test_arcsine_misses_the_target_as_prediction_4_says():
 def test_only_one_elbow_reaches_behind_the_arm_as_prediction_5_says():
     rows = SCARA.ik(FACTS["BEHIND"])
     assert within(SCARA, rows).all(axis=-1).tolist() == [True, False]
-    assert _right("p5").startswith("Elbow +1 alone")
+    assert _right("p5").startswith("Only elbow +1")
 
 
 def test_radius_of_the_hole_in_prediction_6_follows_from_the_limit():

@@ -8,7 +8,7 @@ import re
 import numpy as np
 import pytest
 
-from robokin import ITMO6R, Transform, deg, dh_links, mm
+from robokin import ITMO6R, Arm, Link, Quaternion, Transform, deg, dh_links, mm
 from robokin.arms.link import home
 from robokin.course import book, check, variant
 from robokin.course.questions import filled
@@ -22,16 +22,19 @@ RIGHTS = [WRIST.program(text) for _, text in WRIST.rights]
 WRONGS = {name: WRIST.program(text) for name, _, text in WRIST.wrongs}
 
 
-# --- Exercise 1: the axes of a table --------------------------------------------------------------
+# --- Exercise 1: the axes of a measured table -----------------------------------------------------
 
 
-def _with_the_package(a, alpha, d, offset, q):
-    points, ways, _ = home(dh_links(a, alpha, d, offset + q))
+def _with_the_package(a, alpha, d, offset, beta, q):
+    bends = Transform(Quaternion.from_angle_axis(beta, [0, 1, 0]))
+    rows = dh_links(a, alpha, d, offset + q)
+    links = [Link(row.before, after=row.after @ b) for row, b in zip(rows, bends, strict=True)]
+    points, ways, _ = home(links)
     return points, ways
 
 
-def _elsewhere_on_the_axis(a, alpha, d, offset, q):
-    points, ways = _with_the_package(a, alpha, d, offset, q)
+def _elsewhere_on_the_axis(*case):
+    points, ways = _with_the_package(*case)
     return [
         [
             (np.asarray(p) + k * w).tolist()
@@ -41,15 +44,17 @@ def _elsewhere_on_the_axis(a, alpha, d, offset, q):
     ]
 
 
-def _by_transforms(a, alpha, d, offset, q):
-    frame, rows = Transform(), []
-    for link in dh_links(a, alpha, d, offset + q):
+def _by_transforms(a, alpha, d, offset, beta, q):
+    frame, rows, turn = Transform(), [], Quaternion.from_angle_axis
+    for i in range(len(q)):
         rows.append([*frame.translation, *frame.rotation.as_matrix()[:, 2]])
-        frame = frame @ link.before @ link.after
+        frame = frame @ Transform(turn(offset[i] + q[i], [0, 0, 1]))
+        frame = frame @ Transform(turn(alpha[i], [1, 0, 0]), [a[i], 0, d[i]])
+        frame = frame @ Transform(turn(beta[i], [0, 1, 0]))
     return np.array(rows)
 
 
-def _by_loops(a, alpha, d, offset, q):
+def _by_loops(a, alpha, d, offset, beta, q):
     """A program that computes the rotation and the origin of each axis separately."""
     rotation, origin, out = np.eye(3), np.zeros(3), ([], [])
     for i in range(len(a)):
@@ -60,7 +65,9 @@ def _by_loops(a, alpha, d, offset, q):
         across = np.cross(rotation[:, 2], along)
         up = np.cos(alpha[i]) * rotation[:, 2] - np.sin(alpha[i]) * across
         origin = origin + d[i] * rotation[:, 2] + a[i] * along
-        rotation = np.stack([along, np.cross(up, along), up], axis=1)
+        side = np.cross(up, along)
+        ahead = np.cos(beta[i]) * along - np.sin(beta[i]) * up
+        rotation = np.stack([ahead, side, np.cross(ahead, side)], axis=1)
     return out
 
 
@@ -84,13 +91,13 @@ def test_mistakes_in_axes_are_named(mistake):
     ("answer", "name"),
     [
         (lambda *c: _by_loops(*c)[1], "another kind or shape"),
-        (lambda a, alpha, d, offset, q: _by_loops(a, alpha, d, offset, -q), "the joints turn"),
-        (lambda a, alpha, d, offset, q: _by_loops(a, alpha / deg, d, offset, q), "degrees"),
-        (lambda a, alpha, d, offset, q: _by_loops(a, alpha, 0 * d, offset, q), "d is left out"),
+        (lambda *c: _by_loops(*c[:5], -c[5]), "the joints turn"),
+        (lambda a, alpha, *c: _by_loops(a, alpha / deg, *c), "degrees"),
+        (lambda a, alpha, d, *c: _by_loops(a, alpha, 0 * d, *c), "d is left out"),
         (lambda *c: _by_loops(*(column[:6] for column in c)), "six rows assumed"),
         (
-            lambda a, alpha, d, offset, q: _by_loops(
-                [0, 0.1, 0, 0, 0, 0], alpha, [0.1, 0, 0, 0.2, 0, 0.2], offset, q[:6]
+            lambda a, alpha, d, offset, beta, q: _by_loops(
+                [0, 0.1, 0, 0, 0, 0], alpha, [0.1, 0, 0, 0.2, 0, 0.2], offset, beta, q[:6]
             ),
             "lengths of this lab assumed",
         ),
@@ -99,6 +106,22 @@ def test_mistakes_in_axes_are_named(mistake):
 def test_other_mistakes_in_axes_are_recognised(answer, name):
     verdict = check("spherical_wrist.1", answer)
     assert not verdict.holds and name in verdict.mistake
+
+
+def _frames_of_an_arm(a, alpha, d, offset, beta, q, first=0):
+    """The package's frames of a table with four columns: beta is left out."""
+    links = dh_links(a, alpha, d, offset)
+    frames = Arm("of four columns", links, [(-9, 9)] * len(q)).frames(q).as_matrix()
+    rows = frames[first : first + len(q), :3]
+    return rows[:, :, 3], rows[:, :, 2]
+
+
+def test_frames_of_the_package_lack_the_fifth_column():
+    verdict = check("spherical_wrist.1", _frames_of_an_arm)
+    assert not verdict.holds and verdict.mistake == "beta is left out"
+    verdict = check("spherical_wrist.1", lambda *c: _frames_of_an_arm(*c, first=1))
+    assert not verdict.holds and "beta is left out" in verdict.mistake
+    assert "the frame after the joint" in verdict.mistake
 
 
 def _swapped_elsewhere(*case):
@@ -172,7 +195,7 @@ def test_only_certain_wrong_programs_pass_at_regular_angles():
         "NaN at the singularity",
         "NaN for the free angle",
         "theta beyond half a turn",
-        "a better root alone",
+        "only a better root",
     }
 
 
@@ -274,7 +297,7 @@ def test_test_may_refuse_a_program_with_an_assertion():
 
 def test_missing_test_of_a_product_of_matrices_is_reported():
     verdict = check("spherical_wrist.2", _by_assertion(lambda h: (h,)))
-    assert verdict.mistake == "accepts: a better root alone"
+    assert verdict.mistake == "accepts: only a better root"
     assert any("matrices from a chain" in line for line in verdict.says)
 
 

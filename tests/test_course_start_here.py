@@ -8,8 +8,9 @@ import re
 import numpy as np
 import pytest
 from conftest import NOTEBOOKS
+from lab_sizes import measure
 
-from robokin import IRB140, deg, mm, within
+from robokin import IRB140, deg, mm, ptp, within
 from robokin.course import book, check, solution
 from robokin.course.questions import filled
 
@@ -117,6 +118,10 @@ def test_joint_5_exceeds_its_limit_on_the_lines_that_the_lab_names():
     assert np.allclose(names["lines"][..., 3], 0, atol=1e-9), "joint 4 moves"
     inside = within(IRB140, names["lines"])
     assert inside[..., [0, 1, 2, 3, 5]].all()
+    more, limit = map(
+        int,
+        re.search(r"more than (\d+)° .* more than the (\d+)° that", cell("slider-look")).groups(),
+    )
     ahead, past = np.hypot(350, np.linspace(-350, 350, 2001)) - 70, []
     for height in names["heights"]:
         up = height + 65 - 352
@@ -124,9 +129,34 @@ def test_joint_5_exceeds_its_limit_on_the_lines_that_the_lab_names():
         upper_arm = np.arctan2(up, ahead) + np.arctan2(
             380 * np.sin(gamma), 350 + 380 * np.cos(gamma)
         )
-        past.append((upper_arm - gamma + 90 * deg > 115 * deg).any())
+        past.append((upper_arm - gamma > more * deg).any())
+    assert limit == more + 90 == round(IRB140.limits[4, 1] / deg)
     assert past == (~inside[..., 4]).any(axis=1).tolist()
     first = float(
         re.search(r"At (\d+) mm and above, joint 5 exceeds its limit", cell("slider-look"))[1]
     )
     assert past == (names["heights"] >= first).tolist() and 0 < sum(past) < len(past)
+
+
+def test_joint_6_is_the_fastest_as_stated():
+    names = {}
+    exec(cell("player").split("animate(IRB140")[0], names)
+    t, q = names["t"], ptp(names["home"], names["wave"], names["law"](names["t"]))
+    speed = abs(np.gradient(q, t, axis=0)) / deg
+    k, joint = np.unravel_index(speed.argmax(), speed.shape)
+    said = re.search(
+        r"Joint (\d), .*: after (\d) s, it turns at ([\d.]+)°/s\. "
+        r".* same (\d) s, .* farthest, by (\d+)°",
+        cell("player-look"),
+    )
+    assert [float(each) for each in said.groups()] == pytest.approx(
+        [joint + 1, t[k], 180 * 15 / 8 / 4, names["law"].duration, 180], abs=0.03
+    )
+    assert speed[k, joint] == pytest.approx(float(said[3]), abs=0.05)
+
+
+def test_the_lab_takes_no_longer_than_it_says():
+    """The count leaves out the prediction after "Your turn": two minutes."""
+    assert "In the next twenty minutes" in cell("title")
+    assert round(measure(NOTEBOOKS / "00_start_here.ipynb").core.minutes) + 2 <= 20
+    assert "in twenty minutes" in (NOTEBOOKS.parent / "README.md").read_text(encoding="utf-8")

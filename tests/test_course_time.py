@@ -23,24 +23,32 @@ def _off(b, distance, corner):
     return np.linalg.norm(path.translation[0] - VIA.translation) - distance
 
 
+def _peak(b, corner):
+    """The greatest acceleration, by second differences of samples in the corner."""
+    t = np.linspace(10 - 20 * b, 10 + 20 * b, 1001)
+    place = blend(START, VIA, GOAL, b, t / 20, corner=corner).translation
+    return np.linalg.norm(np.diff(place, n=2, axis=0), axis=-1).max() / (t[1] - t[0]) ** 2
+
+
 def by_bisection(distance, corner):
     if _off(0.5, distance, corner) < 0:
-        return np.nan
+        return np.nan, np.nan
     low, high = 0.0, 0.5
     for _ in range(60):
         middle = (low + high) / 2
         low, high = (middle, high) if _off(middle, distance, corner) < 0 else (low, middle)
-    return high
+    return high, _peak(high, corner)
 
 
 def by_brentq(distance, corner):
     if _off(0.5, distance, corner) < 0:
-        return np.nan
-    return brentq(_off, 0, 0.5, args=(distance, corner), xtol=1e-15)
+        return np.nan, np.nan
+    b = brentq(_off, 0, 0.5, args=(distance, corner), xtol=1e-15)
+    return b, _peak(b, corner)
 
 
 @pytest.mark.parametrize("answer", [by_bisection, by_brentq])
-def test_answers_that_search_for_the_blend_pass(answer):
+def test_answers_that_search_for_the_blend_and_measure_the_acceleration_pass(answer):
     assert check("irb140_motion.1", answer).holds
 
 

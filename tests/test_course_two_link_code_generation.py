@@ -5,6 +5,7 @@ import re
 import numpy as np
 import pytest
 
+from robokin import two_link
 from robokin.course import book, check, solution, variant
 
 WHO = next(
@@ -127,13 +128,28 @@ def test_slightly_wrong_limit_of_reach_is_detected(reach, name):
     def elbow(base, tip, l1, l2, side):
         dx, dy = np.subtract(tip, base)
         d2 = dx * dx + dy * dy
-        if not reach(np.sqrt(d2), l1, l2):
+        if side and not reach(np.sqrt(d2), l1, l2):
             return [np.nan, np.nan]
         a = (d2 + l1**2 - l2**2) / (2 * d2)
         h = side * np.sqrt(max(l1**2 / d2 - a**2, 0))
         return base + a * np.array([dx, dy]) + h * np.array([dy, -dx])
 
     assert check("two_link_code_generation.1", elbow).mistake == name
+
+
+def test_elbows_of_the_package_do_not_give_the_point_between_them_out_of_reach():
+    def by_package(base, tip, l1, l2, side):
+        way = np.subtract(tip, base)
+        d = np.hypot(*way)
+        near = np.clip(d, abs(l1 - l2), l1 + l2)  # onto the rim if rounding is the cause
+        onto = base + way * near / d if abs(near - d) < 1.5e-9 * (l1 + l2) else tip
+        arm = two_link(l1, l2, base)
+        elbows = arm.frames(arm.ik(onto))[..., 1].translation[..., :2]
+        return [elbows[0], elbows.mean(axis=0), elbows[1]][1 - side]
+
+    verdict = check("two_link_code_generation.1", by_package)
+    assert verdict.mistake == "the point between the elbows lost out of reach"
+    assert "side = 0" in verdict.case and verdict.points > 0.8  # everything else is right
 
 
 def test_elbow_for_an_unreachable_tip_is_reported_with_different_numbers():

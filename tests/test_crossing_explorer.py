@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 import test_explorers
 from axe_playwright_python.sync_playwright import Axe
-from canvas_words import RECORD, faults
+from canvas_words import COVERED, RECORD, faults
 
 from robokin import SCARA, three_lever, two_link
 from robokin.show import crossing_explorer
@@ -214,6 +214,24 @@ def test_labels_are_readable_wherever_the_tip_is(browser, opened, width, theme):
             assert shown.rk.bounding_box()["height"] <= 560
         found = Axe().run(shown.page, context=".rk").response["violations"]
         assert [v["id"] for v in found if v["impact"] in ("serious", "critical")] == []
+        shown.page.close()
+
+
+@pytest.mark.parametrize("arm", [two_link(1, 1), two_link(1, 0.7)], ids=["equal", "unequal"])
+@pytest.mark.parametrize("divisor", ["x3", "y3"])
+@pytest.mark.parametrize("width", [390, 914])
+def test_names_beside_the_curves_cover_neither_a_curve_nor_a_point(
+    browser, opened, width, divisor, arm
+):
+    with browser.new_context(viewport={"width": width, "height": 800}) as small:
+        shown = opened(crossing_explorer(arm, (0.9, 0.6), divisor=divisor), within=small)
+        shown.page.evaluate(COVERED, ["^(right|left) elbow$", ["accent", "near", "alarm"]])
+        for place in ((0.9, 0.6), (0.8, 0.6), (-0.3, 0.4), (0.2, -1.4)):
+            shown.page.evaluate("covered.length = 0")
+            moved(shown, *place)
+            covered = shown.page.evaluate("covered")
+            assert {text for text, _ in covered} == {"right elbow", "left elbow"}
+            assert [each for each in covered if each[1] > 12] == [], place
         shown.page.close()
 
 

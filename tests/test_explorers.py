@@ -99,6 +99,22 @@ Object.assign(pen, {
 const clipboard = {writeText: async text => { window.copied = text; }};
 Object.defineProperty(navigator, "clipboard", {value: clipboard});
 """
+# `canvas.lines`: the points, dashes and widths of all lines in the last picture
+LINES = """{
+  const pen = CanvasRenderingContext2D.prototype;
+  const {clearRect, beginPath, moveTo, lineTo, stroke} = pen;
+  Object.assign(pen, {
+    clearRect(...all) { this.canvas.lines = []; return clearRect.apply(this, all); },
+    beginPath() { this.line = []; return beginPath.call(this); },
+    moveTo(x, y) { this.line.push([x, y]); return moveTo.call(this, x, y); },
+    lineTo(x, y) { this.line.push([x, y]); return lineTo.call(this, x, y); },
+    stroke() {
+      const [points, dash, width] = [this.line, this.getLineDash(), this.lineWidth];
+      this.canvas.lines?.push({points, dash, width});
+      return stroke.call(this);
+    },
+  });
+}"""
 READ = """async rk => {
   const all = what => [...rk.querySelectorAll(what)];
   const frame = () => new Promise(requestAnimationFrame);
@@ -249,6 +265,9 @@ def shows_the_flange_pose(shown, exact=True):
     assert np.allclose(boxes / units, q / units, atol=0.0501)
     told = [float(seen.told[f"q{i + 1}"].split(" ")[0]) for i in range(len(q))]
     assert np.allclose(told, q / units, atol=0.0501)
+    above = seen.count.replace("\N{MINUS SIGN}", "-")  # next to the title
+    first, *place = filter(None, seen.rows[0])
+    assert above == f"{first}: {', '.join(place)}"
     assert ((q >= arm.limits[:, 0] - 1e-5) & (q <= arm.limits[:, 1] + 1e-5)).all()
     pose, size = arm.fk(q), shown.data["unit"]["size"]
     values = [[float(re.search(r"-?[\d.]+$", x)[0]) for x in row[1:] if x] for row in seen.rows]
@@ -285,6 +304,18 @@ def test_joint_explorer_shows_the_flange_pose(opened, arm):
     assert len({tuple(one.pixels) for one in seen}) == len(different) > 5, (
         "the picture does not change"
     )
+
+
+def test_double_click_on_a_ring_moves_it_back_to_its_start(opened):
+    shown = opened(joint_explorer(IRB140), IRB140)
+    start = shown.look()
+    for name in ("q2", "q6"):
+        x, y = start.handles[name]["at"]
+        moved = shown.drag(name, (x + 30, y + 40))
+        assert moved.boxes[name] != start.boxes[name]
+        assert (moved.count != start.count) == (name == "q2"), "joint 6 does not move the flange"
+        shown.handle(name).dblclick()
+        assert shown.look().code == start.code and shown.look().count == start.count
 
 
 def test_joint_explorer_names_singularities(opened):
@@ -1251,7 +1282,7 @@ def test_arm_fills_the_scene_when_the_page_opens(opened):
 
 
 def pixels(shown, points):
-    """The places of points (..., 3) on the page, for a scene that has not been enlarged."""
+    """The places of points (..., 3) on the page, for a scene that has not zoomed out."""
     scene, box = shown.data["scene"], shown.rk.locator("canvas").first.bounding_box()
     seen = np.array(scene["seen"])
     if scene["flat"] is None:
@@ -1262,12 +1293,70 @@ def pixels(shown, points):
     return [box["x"] + 20, box["y"] + 28] + room / 2 + way * [1, -1]
 
 
+def axes_on_the_page(shown, arm, q):
+    """The ends (n, 2, 2) of the drawn axes of the joints on the page. They must be the ends in
+    space, seen by one camera, whatever its scale is.
+    """
+    scene, canvas = shown.data["scene"], shown.rk.locator("canvas").first
+    lines = canvas.evaluate("canvas => canvas.lines")
+    drawn = np.array([line["points"] for line in lines if line["dash"] == [7, 3, 1.5, 3]])
+    joints = [arm.frames(q)[i] @ link.before for i, link in enumerate(arm.links)]
+    half = 0.22 * scene["size"]
+    ends = [
+        joint @ (np.array([[-half], [half]]) * link.axis)
+        for joint, link in zip(joints, arm.links, strict=True)
+    ]
+    flat = project(np.array(ends), scene["view"]) * [1, -1]
+    middles = drawn.mean(axis=(0, 1)), flat.mean(axis=(0, 1))
+    about = flat - middles[1]
+    scale = np.sum(about * (drawn - middles[0])) / np.sum(about**2)
+    assert drawn == pytest.approx(middles[0] + scale * about, abs=0.1)
+    box = canvas.bounding_box()
+    return drawn + [box["x"], box["y"]]
+
+
+@pytest.mark.parametrize("touched", [False, True], ids=["mouse", "touch"])
+def test_rings_and_the_axes_of_the_flange_are_inside_the_picture(browser, opened, touched):
+    options = {"viewport": {"width": 1000, "height": 900}}
+    if touched:
+        options = {"viewport": {"width": 390, "height": 844}, "has_touch": True, "is_mobile": True}
+    context = browser.new_context(**options)
+    context.add_init_script(WATCH)
+    context.add_init_script(LINES)
+    for arm in (PUMA560, SCARA, UR5):
+        shown = opened(joint_explorer(arm), arm, within=context)
+        canvas = shown.rk.locator("canvas").first
+        box, n = canvas.bounding_box(), len(arm.links)
+        rings = sum(
+            not link.prismatic for link in arm.links[: (n + 1) // 2 if touched and n > 4 else n]
+        )
+        for i, control in enumerate(shown.data["controls"]):
+            for value in (control["low"], control["high"]):
+                shown.type(f"q{i + 1}", value)
+                scale = box["y"] + box["height"] - 20  # the top of "grid 100 mm"
+                for each in shown.look().handles.values():
+                    assert each["at"][1] + (22 if touched else 13) < scale + 0.1, each
+                lines = canvas.evaluate("canvas => canvas.lines")
+                lines = [
+                    np.array(line["points"])
+                    for line in lines
+                    if len(line["points"]) == 49 or line["width"] == 3 and len(line["points"]) == 2
+                ]
+                assert sum(len(line) == 49 for line in lines) == rings
+                assert sum(len(line) == 2 for line in lines) >= 3
+                points = np.concatenate(lines)
+                assert points.min() > 0, (arm.name, i + 1, value)
+                assert (points < [box["width"], box["height"]]).all(), (arm.name, i + 1, value)
+    context.close()
+
+
 @pytest.mark.parametrize("touched", [False, True], ids=["mouse", "touch"])
 def test_rings_are_at_the_axes_of_their_joints_and_do_not_overlap(browser, opened, touched):
     size, reach, apart = (44, 84, 39) if touched else (26, 60, 24)
     options = {"has_touch": True, "is_mobile": True} if touched else {}
     context = browser.new_context(viewport={"width": 1000, "height": 900}, **options)
     context.add_init_script(WATCH)
+    context.add_init_script(LINES)
     bent = np.array([20, 30, -40, 50, 60, 40]) * deg
     for arm, q in (
         (IRB140, None),
@@ -1285,11 +1374,9 @@ def test_rings_are_at_the_axes_of_their_joints_and_do_not_overlap(browser, opene
         assert min(box["width"], box["height"]) > size - 0.01
         between = np.linalg.norm(places[:, None] - places, axis=-1)
         assert between[np.triu_indices(len(q), 1)].min() > apart, arm.name
-        for i, link in enumerate(arm.links):
-            joint = arm.frames(q)[i] @ link.before
-            here, there = pixels(shown, joint @ np.stack([np.zeros(3), link.axis]))
+        for i, (here, there) in enumerate(axes_on_the_page(shown, arm, q)):
             way = (there - here) / np.linalg.norm(there - here)
-            off = places[i] - here
+            off = places[i] - (here + there) / 2
             # the handle is on the ring, and its neighbours may push it aside by half of their size
             assert abs(np.linalg.det([way, off])) < 0.5 * reach + size / 2, (arm.name, i + 1)
             assert np.linalg.norm(off) < 0.85 * reach + size / 2, (arm.name, i + 1)
@@ -1495,8 +1582,10 @@ def test_printed_page_contains_the_picture(opened, kind):
     seen = shown.look()
     assert shown.rk.locator(".rk-scene").is_visible() and min(seen.bytes) > 3000
     assert shown.rk.locator("table").is_visible() and seen.rows == before.rows
-    assert not shown.rk.locator(".rk-handle:visible").count()
-    assert not shown.rk.locator("input:visible").count()
+    assert bool(shown.rk.locator(".rk-handle:visible").count()) == (kind == "joint")
+    boxes = shown.rk.locator("input:visible")
+    assert boxes.count() == shown.rk.locator(".rk-slide input[type=number]").count()
+    assert all(box.get_attribute("type") == "number" for box in boxes.all())
     shown.page.emulate_media(media="screen", color_scheme="light")
     assert shown.look().pixels == before.pixels
 

@@ -376,7 +376,9 @@ def shown(page, *titles):
     )
     page.set_content(panels)
     page.evaluate(f"() => {{ {script('guesses')}; window.$guesses = $guesses; }}")
-    return page.locator(".rk-ask").all()
+    asks = page.locator(".rk-ask")
+    until(lambda: asks.count() == len(titles), "a question is missing", page)
+    return asks.all()
 
 
 def made_in(page):

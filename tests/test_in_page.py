@@ -303,7 +303,7 @@ def test_an_answer_that_never_ends_gets_the_engines_sentence(lab):
 
 def test_a_view_appears_and_moves(lab):
     before = lab.cell("opening").locator(f"{PLAYER} canvas").count()
-    lab.run("opening")
+    lab.run("opening", lab.source("opening") + "  # my own")
     own = lab.cell("opening").locator(f".rk-mine {PLAYER}")
     own.locator("canvas").first.wait_for()
     assert before and own.count() == 1
@@ -312,6 +312,36 @@ def test_a_view_appears_and_moves(lab):
     slider.press("ArrowRight")
     lab.page.evaluate(NEXT_FRAME)
     assert _seen(own) != seen
+
+
+def test_a_run_that_gives_the_same_view_leaves_it_as_the_reader_left_it(context, site_address):
+    lab = Lab(context, site_address, "03_irb140_motion")
+    view = lab.cell("close-up").locator(f".cell_output:visible {PLAYER}")
+    blend = view.get_by_role("slider", name="blend").last
+    blend.press("ArrowRight")
+    lab.page.evaluate(NEXT_FRAME)
+    seen, value = _seen(view), blend.input_value()
+    for _ in range(2):
+        lab.run("close-up")
+        assert (_seen(view), blend.input_value()) == (seen, value)
+        assert "it stays as you left it" in lab.says("close-up")
+    lab.button("close-up", "Start again").click()
+    view.locator("canvas").first.wait_for()
+    assert blend.input_value() != value, "the lab's view again"
+    assert view.count() == 1
+    blend.press("ArrowRight")
+    blend.press("ArrowRight")
+    value = blend.input_value()
+    lab.run("close-up")
+    assert blend.input_value() == value, "the reader's own view stays, too"
+    source = lab.source("close-up")
+    lab.run("close-up", source.replace("duration=20", "duration=10"))
+    assert lab.says("close-up") == "This is your result."
+    view.locator("canvas").first.wait_for()
+    assert view.get_by_role("slider", name="duration").last.input_value() == "10"
+    lab.button("close-up", "Reset").click()
+    assert lab.errors == [] and lab.outside == []
+    lab.page.close()
 
 
 def test_a_picture_that_cannot_be_drawn_again_is_not_called_the_readers(lab):
@@ -338,6 +368,7 @@ def test_changes_survive_and_go_into_the_download(lab, site):
     ask.get_by_role("button", name="This is my guess").click()
     assert "Saved for your report." in ask.inner_text()
     assert ask.get_by_role("button", name="Copy my guesses").count() == 0
+    awake(lab.page)
     with lab.page.expect_download() as download:
         lab.page.get_by_role("button", name="Download my notebook").first.click()
     assert download.value.suggested_filename == f"{FRAMES}.ipynb"
@@ -364,6 +395,7 @@ def test_changes_survive_and_go_into_the_download(lab, site):
 
 
 def test_the_report_is_made_from_the_downloaded_notebook(lab, site):
+    awake(lab.page)  # a view that starts between press and release moves the button
     report = lab.page.locator("div.cell", has_text="report(who)").last
     assert report.get_by_role("button", name="Run").count() == 0
     assert report.locator(".cell_output").count() == 0, "it would say what to do in JupyterLab"
@@ -505,6 +537,7 @@ def test_a_phone_can_edit_and_run(browser, site_address):
         viewport={"width": 390, "height": 800}, has_touch=True, is_mobile=True
     )
     lab = Lab(context, site_address)
+    awake(lab.page)  # a view that starts between touch and release moves the button
     lab.button(POINT, "Edit").tap()
     box = lab.cell(POINT).locator("textarea")
     box.wait_for()
@@ -513,7 +546,15 @@ def test_a_phone_can_edit_and_run(browser, site_address):
     lab.button(POINT, "Run").tap()
     lab.done()
     assert lab.shows(POINT).startswith("a b c")
-    for button in lab.page.locator(".rk-bar button:visible, .rk-intro button").all():
+    box.fill("a = 1\n" * 3 + f"b = '{'long ' * 40}'")
+    lab.page.evaluate(NEXT_FRAME)
+    assert lab.page.evaluate(
+        "() => [...document.querySelectorAll('.rk-editor, .rk-editor *')].map(e => e.scrollLeft)"
+        ".every(x => x === 0)"
+    ), "the beginnings of the lines are visible"
+    lines = "article summary:visible, .rk-bar button:visible, .rk-intro button"
+    assert lab.page.locator("article summary:visible").count() > 5
+    for button in lab.page.locator(lines).all():
         box = button.bounding_box()
         assert box["height"] >= 44 and box["width"] >= 44, button.inner_text()
     assert lab.page.evaluate("() => document.documentElement.scrollWidth") <= 390
@@ -544,7 +585,7 @@ def test_a_view_that_asks_python_wakes_and_sleeps(browser, site_address, name, c
     context = browser.new_context(viewport={"width": 1366, "height": 900})
     lab = Lab(context, site_address, name)
     lab.run(cell)
-    view = lab.cell(cell).locator(f".rk-mine {PLAYER}")
+    view = lab.cell(cell).locator(f".cell_output:visible {PLAYER}")
     view.scroll_into_view_if_needed()
     until(lambda: view.get_attribute("data-awake") is not None, "it stays asleep", lab.page)
     slider = view.locator(".rk-side input[type=range]").first

@@ -245,6 +245,16 @@ def test_code_is_folded_on_a_phone_and_open_elsewhere(pages, opened, kind):
     )
 
 
+@pytest.mark.parametrize("kind", ["export", "site"])
+def test_what_is_folded_can_be_touched_on_a_phone(pages, opened, kind):
+    page = opened(pages(kind, SOME[1]), PHONE)
+    awake(page)
+    sizes = page.evaluate("""() => [...document.querySelectorAll(":is(main, article) summary")]
+        .filter(e => e.checkVisibility()).map(e => e.getBoundingClientRect())
+        .map(({width, height}) => Math.min(width, height))""")
+    assert len(sizes) > 5 and min(sizes) >= 43.95
+
+
 def test_code_is_never_visible_before_it_is_folded(browser, exported):
     context = browser.new_context(viewport={"width": PHONE, "height": 900})
     page = context.new_page()

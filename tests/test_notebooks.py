@@ -241,21 +241,15 @@ def test_section_runs_alone_or_names_the_sections_to_run_first(lab):
     names: "Run section 2 first", "Run sections 2 and 4 first", 'Run "Your turn" first'. These
     sections may name others in turn.
     """
-    sections = _sections(lab)
+    sections = sections_of(lab)
     for title in sections:
-        needed, to_do = set(), [title]
-        while to_do:
-            now = to_do.pop()
-            needed.add(now)
-            to_do += [each for each in _run_first(sections, now) if each not in needed]
-        cells = [cell for each in sections if each in needed for cell in sections[each][1]]
         known = set(dir(builtins))
-        for cell in cells:
+        for cell in with_sections_to_run_first(sections, title):
             assert not cell.reads - known, (title, cell.reads - known)
             known |= cell.writes
 
 
-def _sections(lab):
+def sections_of(lab):
     """Return a dict that maps the title of each part of a lab to its text and its cells."""
     sections = {}
     title = "top"
@@ -269,6 +263,16 @@ def _sections(lab):
     return {
         title: (" ".join("\n".join(text).split()), made) for title, (text, made) in sections.items()
     }
+
+
+def with_sections_to_run_first(sections, title):
+    """The cells of a section, after those of the sections that have to run first."""
+    needed, to_do = set(), [title]
+    while to_do:
+        now = to_do.pop()
+        needed.add(now)
+        to_do += [each for each in _run_first(sections, now) if each not in needed]
+    return [cell for each in sections if each in needed for cell in sections[each][1]]
 
 
 def _run_first(sections, title):

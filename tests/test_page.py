@@ -3,6 +3,7 @@ can be decoded.
 """
 
 import base64
+import json
 import re
 import subprocess
 import zlib
@@ -106,6 +107,11 @@ def run(script, ending):
     return done.stdout.strip()
 
 
+def test_commas_after_the_last_item_are_left_out(modules):
+    modules(top="export const all = [\n  1,\n  {\n    a: [2, 3],\n  },\n];\n")
+    assert "all=[1,{a:[2,3]}];" in joiner.script("top")
+
+
 def test_each_module_is_included_once_in_its_own_scope(modules):
     modules(
         base="// words\nconst hidden = 2;\nexport const twice = x => hidden * x;\n",
@@ -137,13 +143,14 @@ def test_each_module_is_included_once_in_its_own_scope(modules):
         ("found = [1 - -1, 1 + +1, 2 - - 1]; let i = 1; found[3] = i++ + ++i;", "[2,2,3,4]"),
         ("found = (() => { return typeof /x/; })();", '"object"'),
         ("function one() { return 1; }\nfound = one() / 2; /* a\nb */ found /= 1;", "0.5"),
+        ("found = [1,\n[, ,\n],\n((a, b,\n) => a)({c: [2, ,\n],\n}.c,\n),\n];", None),
         ("found = /* a */function(){return 1}/* b */() in/* c */[0, 1];", "true"),
     ],
 )
 def test_comments_are_removed_and_code_is_kept(modules, code, value):
     text = f'let found = ["a", "b"];\n{code}\n'
     plain = run(text, "found")
-    assert plain == value or value is None and "// " in plain
+    assert plain == value or value is None and ("// " in plain or plain.count("null") == 3)
     modules(top=f"{text}export const all = () => found;\n")
     assert run(joiner.script("top"), "$top.all()") == plain
 
@@ -155,7 +162,7 @@ def test_a_compressed_script_adds_its_style_sheets_and_returns_its_module(module
     document = "const sheets = [], document = {createElement: () => ({}), "
     document += "head: {append: sheet => sheets.push(sheet.textContent)}};"
     head = f"{document}\nconst found = (() => {{{code}}})();"
-    assert run(head, "[found.one, sheets]") == '[1,["b{margin:0}"]]'
+    assert json.loads(run(head, "[found.one, sheets]")) == [1, [palette.css() + "b{margin:0}"]]
     modules({"base": "b { margin: 1px }"}, base="export const one = 1;\n")
     assert joiner.compressed("base")[0] != key, "wanted a different key for a different text"
 
@@ -255,13 +262,17 @@ def test_style_sheet_follows_those_of_imported_modules(modules):
 
 
 def test_joined_style_sheets_match_the_files_in_a_browser(browser):
-    """The test compares all rules of all style sheets, as Chromium serialises them."""
+    """The test compares all rules of all style sheets, as Chromium serialises them.
+
+    Newer versions of Chromium keep the spaces of a value that contains `var()`.
+    """
     tab = browser.new_page()
     tab.set_content("<style id=sheet></style>")
     rules = """text => {
         const sheet = document.getElementById("sheet");
         sheet.textContent = text;
-        return [...sheet.sheet.cssRules].map(rule => rule.cssText.replace(/,\\s+/g, ","));
+        const plain = text => text.replace(/\\s+/g, " ").replace(/ ?([(),]) ?/g, "$1");
+        return [...sheet.sheet.cssRules].map(rule => plain(rule.cssText));
     }"""
     views = "motor_explorer", "elbow_explorer", "tour_explorer", "plan_explorer", "prediction"
     for name in views:

@@ -103,6 +103,38 @@ def test_page_moves_match_python_for_a_thousand_goals(twin):
         assert set(letters) == {"", "abd", "acd", "ad"}, "a kind of goal does not occur"
 
 
+def test_motors_reverse_at_the_places_that_geometry_gives(twin):
+    """Beta depends only on the distance from joint 2, so motor 3 reverses at the foot of the
+    perpendicular on the line. Gamma comes from the two rods, and alpha never turns back on a line.
+    """
+    rng = np.random.default_rng(12)
+    goals = [GOAL, *rng.uniform([-0.6, -0.6, 0], [0.6, 0.6, 0.6], (300, 3))]
+    rows = twin.page.evaluate(
+        """async ([data, goals]) => {
+          const {waysOf} = await import("/paths_explorer.js");
+          return goals.map(goal => waysOf(data, goal).ways.map(way => way?.turned ?? []));
+        }""",
+        [view().data, np.array(goals).tolist()],
+    )
+    share, met = np.linspace(0, 1, 20001), []
+    for goal, (a, b, c, d) in zip(goals, rows, strict=True):
+        assert not (a or b or d), "only path c has reversals"
+        line = START + share[:, None] * (goal - START)
+        x, y, z = line.T
+        h = np.linalg.norm(line, axis=1)
+        inside = ((A**2 - B**2 + h**2) / (2 * A * h)).clip(-1, 1)
+        gamma = np.arccos(inside) + np.arctan2(z, np.hypot(x, y))
+        extremes = share[1:-1][np.diff(gamma)[1:] * np.diff(gamma)[:-1] < 0]
+        for turned in c:
+            at = np.linalg.norm(turned["at"] - START) / np.linalg.norm(goal - START)
+            foot = -START @ (goal - START) / ((goal - START) @ (goal - START))
+            expected = {1: extremes, 2: [foot]}[turned["motor"]]
+            assert min(abs(np.array(expected) - at)) < 2e-3
+            met.append(turned["motor"])
+    assert [turned["motor"] for turned in rows[0][2]] == [1, 2]
+    assert met.count(1) > 20 and met.count(2) > 20
+
+
 def told(seen):
     """Return the table as a dict that maps letters to numbers, and the motors that reverse."""
     rows = {row[0][0]: row[1:] for row in seen.rows}
@@ -208,6 +240,8 @@ def test_arm_follows_the_chosen_path_and_the_clock(opened):
         seen = shown.look()
         assert seen.chosen == "abcd".index("c" if row == "b" else row)
         pictures.append(seen.pixels)
+        named = [word for word in seen.words[0].split("|") if word.endswith("reverses")]
+        assert named == ["motor 2 reverses", "motor 3 reverses"] * (row in "cb")
     assert len({tuple(each) for each in pictures}) == 3, "the arm does not follow the chosen path"
     shown.slide("time", 400)
     seen = shown.look()
@@ -216,6 +250,29 @@ def test_arm_follows_the_chosen_path_and_the_clock(opened):
     )
     assert {"a", "c", "d", "start", "goal"} <= set(seen.words[0].split("|"))
     assert seen.pixels not in pictures
+
+
+def test_first_play_begins_at_the_start(opened):
+    shown = opened(view(), LOADER)
+    now = lambda: float(shown.look().told["time"].removesuffix(" s"))  # noqa: E731
+    opening = now()
+    shown.page.evaluate(
+        """async () => {
+          const button = document.querySelector(".rk-clock button");
+          button.click();
+          await new Promise(requestAnimationFrame);
+          button.click();
+        }"""
+    )
+    assert now() < opening, "a frame adds at most half a second"
+    assert opening > 1.5
+
+
+def test_goal_at_the_start_is_named(opened):
+    shown = opened(view(), LOADER)
+    for letter, value in zip("xyz", START / mm, strict=True):
+        shown.type(letter, value)
+    assert shown.look().says == "The goal is less than one pulse from the start."
 
 
 def test_view_has_no_accessibility_violations(opened):

@@ -12,6 +12,7 @@ from types import SimpleNamespace
 
 import numpy as np
 import pytest
+from canvas_words import COVERED
 from conftest import awake, until
 from matplotlib.patches import Circle, Polygon
 from matplotlib.text import Text
@@ -35,7 +36,7 @@ from robokin.show import animate, joint_explorer, motor_explorer, plot_joints
 from robokin.show.camera import arm_points, project
 from robokin.show.joiner import script
 from robokin.show.markup import STILL
-from robokin.show.palette import css
+from robokin.show.palette import AXIS_COLORS, css
 
 X, Y, Z = np.eye(3)
 ROW = IRB140.branch(+1, +1, -1)
@@ -655,6 +656,13 @@ def test_still_picture_has_every_arm_at_its_base(motions):
     )
 
 
+def test_only_arms_at_different_places_show_no_frames_of_their_tools(motions):
+    for other, framed in ((BASES[0], True), (BASES[1], False)):
+        made = animate([IRB140] * 2, T, [motions[1]] * 2, bases=np.stack([BASES[0], other]))
+        colors = {line.get_color() for line in made.still.axes[0].lines}
+        assert set(AXIS_COLORS) <= colors if framed else not set(AXIS_COLORS) & colors
+
+
 def test_arms_on_bases_show_no_distance_to_the_via_point(motions):
     via = {"via": IRB140.fk(motions[1][900])}
     pair = [IRB140] * 2, T, [motions[1]] * 2
@@ -1030,6 +1038,35 @@ def test_player_can_be_played_paused_and_scrubbed_by_keyboard_alone(page, blende
     assert page.get_by_text("20.00 s").count() == 1
 
 
+def test_a_motion_ends_soon_after_everything_has_come_to_rest(page, tmp_path):
+    """A race: the axis has room for the slowest of its motions, and no other one waits for it."""
+    t = np.linspace(0, 2, 201)
+    ends = np.array([0.5, 1.9, 0.8])
+    q = np.minimum(t / ends[:, None], 1)[..., None] * np.ones(6) * 0.5
+    place = np.array([0.2, 0, 0.1]) * np.minimum(t / [[0.5], [1.9], [1.6]], 1)[..., None]
+    still = np.zeros_like(q[:1])
+    motions = animate(
+        IRB140,
+        t,
+        np.concatenate([q, still]),
+        slider=("motion", range(4)),
+        points={"box": np.concatenate([place, place[:1] * 0])},
+    )
+    show(page, motions, tmp_path)
+    time, slider = page.get_by_label("time", exact=True), page.get_by_label("motion", exact=True)
+    for k, end in enumerate([0.6, 2, 1.7, 2]):  # the box of the third moves on without the arm
+        slider.fill(str(k))
+        time.press("End")
+        ink(page, ".rk-scene")
+        shown = float(re.search(r"([\d.]+) s", time.get_attribute("aria-valuetext"))[1])
+        assert shown == pytest.approx(end, abs=0.03)
+    slider.fill("0")
+    page.get_by_role("button", name="play").click()
+    page.get_by_role("button", name="play").wait_for(timeout=20_000)  # it has played to the end
+    ink(page, ".rk-scene")
+    assert time.input_value() == "400" and page.get_by_text("0.60 s").count() == 1
+
+
 def test_controls_have_names_and_their_key_presses_do_not_reach_jupyterlab(page, blended, tmp_path):
     show(page, blended, tmp_path)
     controls = page.locator("input, select, button, canvas[tabindex]")
@@ -1109,6 +1146,24 @@ def test_limit_labels_do_not_overlap(page, tmp_path, width):
         )
 
 
+@pytest.mark.parametrize("jumps", [(1.13, 4.87), tuple(np.arange(0.83, 6, 0.6))])
+@pytest.mark.parametrize("width", [390, 900])
+def test_message_about_a_jump_does_not_cover_a_curve(page, tmp_path, width, jumps):
+    """Joint 2 of one arm jumps, that of the other does not, near the top of the panel."""
+    t = np.linspace(0, 6, 1500)
+    still = np.stack([-1 - 0.1 * t, np.full_like(t, 1.7)], axis=-1)
+    jumping = still - np.outer(np.searchsorted(jumps, t) % 2, [0, 0.6 if len(jumps) > 2 else 3])
+    page.set_viewport_size({"width": width, "height": 900})
+    both = animate([PLANAR, PLANAR], t, [jumping, still], names=["jumps", "does not"])
+    show(page, both, tmp_path)
+    page.evaluate(COVERED, ["jumps by", ["joint1", "joint2"]])
+    page.get_by_label("time", exact=True).fill("0.1")
+    ink(page, ".rk-curves")
+    covered = page.evaluate("covered")
+    assert covered
+    assert [text for text, pixels in covered if pixels > 50] == []
+
+
 @pytest.mark.parametrize("width", [360, 500, 900, 1400])
 def test_nothing_is_cut_off_at_any_width(page, blended, tmp_path, width):
     page.set_viewport_size({"width": width, "height": 900})
@@ -1156,7 +1211,7 @@ def test_marks_move_on_the_page(page, motions, tmp_path):
             assert "ball" in page.evaluate("written")
     assert len(seen) == 6
     page.evaluate("written.length = 0")
-    clock.fill("350")
+    clock.fill("390")  # the clock ends soon after the mark is gone
     ink(page, ".rk-scene")
     assert page.evaluate("written.length") and "ball" not in page.evaluate("written")
 
@@ -1286,6 +1341,57 @@ def test_still_picture_explains_how_to_start_the_view(page, browser, blended, tm
     still.goto((tmp_path / "player.html").as_uri())
     assert still.get_by_text(STILL).is_visible()
     context.close()
+
+
+def test_view_that_another_one_pushes_away_starts_when_the_reader_comes_near(page):
+    """The second view is close to the visible part of the page until the first one starts."""
+    page.set_viewport_size({"width": 390, "height": 600})
+    views = [joint_explorer(spbu_arm(0.4, 0.5)), joint_explorer(IRB140)]
+    first, second = (re.sub("<img[^>]*>", "", view.html) for view in views)
+    content = f"{first}<div style='height:500px'></div>{second}"
+    places, started = page.locator("[data-player]"), page.locator("[data-player][data-ready]")
+    page.set_content(re.sub("(?s)<script.*?</script>", "", content))
+    assert places.nth(1).bounding_box()["y"] < 1.5 * 600
+    page.set_content(content)
+    started.wait_for()
+    page.wait_for_timeout(300)  # long enough for the second view, if it had its turn
+    assert places.nth(1).bounding_box()["y"] > 1.5 * 600 and started.count() == 1
+    page.mouse.wheel(0, 500)
+    until(lambda: started.count() == 2, "the second view did not start", page)
+
+
+def test_a_view_that_occurs_twice_does_not_stop_the_others(page):
+    twice, other = (joint_explorer(arm).html for arm in (spbu_arm(0.4, 0.5), IRB140))
+    page.set_content(f"{twice}{other}{twice}")
+    started = page.locator("[data-player][data-ready]")
+    until(lambda: page.mouse.wheel(0, 300) or started.count() == 3, "a view did not start", page)
+
+
+def test_a_view_starts_next_to_one_of_an_older_notebook(page):
+    """JupyterLab shows all notebooks in one window, and older ones share less in it."""
+    older = "<script>globalThis.robokinTurn = {last: Promise.resolve()}</script>"
+    page.set_content(older + joint_explorer(IRB140).html)
+    page.locator("[data-player][data-ready] canvas").first.wait_for()
+
+
+def test_a_view_that_is_removed_before_its_turn_does_not_stop_the_others(page):
+    gone, other = (joint_explorer(arm).html for arm in (spbu_arm(0.4, 0.5), IRB140))
+    watch = """<script>{
+        const Observer = IntersectionObserver;
+        globalThis.IntersectionObserver = class extends Observer {
+            observe(place) {
+                super.observe(place);
+                // the second observer of the first view asks whether it is still close
+                if (place.id === "gone" && globalThis.asked++) place.remove();
+            }
+        };
+        globalThis.asked = 0;
+    }</script>"""
+    first = gone.replace('<div class="robokin-player"', '<div id="gone" class="robokin-player"', 1)
+    page.set_content(watch + first + other)
+    until(lambda: page.evaluate("asked") == 2, "the first view was not asked", page)
+    page.locator("[data-player][data-ready] canvas").first.wait_for()
+    assert page.locator("#gone").count() == 0
 
 
 def test_page_that_cannot_draw_keeps_the_still_picture(page, blended, tmp_path):

@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 import test_browser
 from axe_playwright_python.sync_playwright import Axe
-from conftest import awake
+from conftest import awake, until
 from playwright.sync_api import expect
 
 from robokin import IRB140, deg
@@ -196,7 +196,9 @@ def test_question_can_occur_twice_in_a_page(opened):
         "html => document.body.append(document.createRange().createContextualFragment(html))",
         asked.html,
     )
-    one, other = page.locator(".rk-ask").all()
+    asks = page.locator(".rk-ask")
+    until(lambda: asks.count() == 2, "the question does not appear a second time", page)
+    one, other = asks.all()
     one.get_by_label("a)").check()
     other.get_by_label("c)").check()
     assert one.get_by_label("a)").is_checked() and other.get_by_label("c)").is_checked()

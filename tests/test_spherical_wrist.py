@@ -527,7 +527,7 @@ def _unit(v):
 
 
 def test_each_singularity_depends_on_its_own_joints():
-    """The wrist singularity depends on joint 5 alone, that of the elbow on joint 3, and that of the
+    """The wrist singularity depends only on joint 5, that of the elbow on joint 3, and that of the
     shoulder on joints 2 and 3.
     """
     stretched = -90 * deg  # the forearm of the IRB-140 points straight up

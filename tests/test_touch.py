@@ -271,6 +271,32 @@ def test_a_switch_chooses_the_handles_where_there_is_no_room_for_all(opened, pho
     assert set(shown.look().handles) == every
 
 
+@pytest.mark.parametrize("touch", [True, False])
+def test_paper_has_a_small_number_for_every_ring(opened, phone, context, touch):
+    """Paper is narrow, but it has no switch and no fingers."""
+    shown = opened(joint_explorer(IRB140), within=phone if touch else context)
+    shown.look()
+    shown.page.evaluate("""() => {
+      window.rings = [];
+      const {stroke} = CanvasRenderingContext2D.prototype;
+      CanvasRenderingContext2D.prototype.stroke = function (...all) {
+        if (Math.abs(this.lineWidth - 1.6) < 0.01 && /rgba|#.{8}/.test(this.strokeStyle))
+          rings.push(this.strokeStyle);  // a ring
+        return stroke.apply(this, all);
+      };
+    }""")
+    shown.page.set_viewport_size({"width": 640, "height": 900})
+    shown.look()
+    shown.page.evaluate("rings.length = 0")
+    shown.page.emulate_media(media="print")
+    shown.look()
+    _, boxes = shown.rk.evaluate(BOXES)
+    assert sorted(boxes) == [f"q{j}" for j in range(1, 7)]
+    sizes = [[x1 - x0, y1 - y0] for x0, y0, x1, y1 in boxes.values()]
+    assert np.array(sizes) == pytest.approx(26, abs=0.01)
+    assert len(set(shown.page.evaluate("rings"))) >= 6
+
+
 def test_a_few_handles_need_no_switch(opened, phone):
     for make, count in ((lambda: joint_explorer(SCARA), 4), (lambda: target_explorer(LOADER), 4)):
         shown = opened(make(), within=phone)

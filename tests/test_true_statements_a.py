@@ -116,7 +116,8 @@ def test_check_accepts_what_hint_2_approves_and_reports_jumps():
     lines = find("irb140_kinematics.3", "exercises").hints[1].split("\n")
     program = "\n".join(line[4:] for line in lines if line.startswith("    "))
     task = sources("02")["yourturn-3"]
-    assert "one continuous motion" in task and "one motion" in lines[0]
+    assert "one continuous motion" in task
+    assert "each joint has to move continuously, without jumps" in lines[0]
     lab_2 = book.lab("irb140_kinematics").module("own_target")
     numbers, refused = lab_2["given"]("Ada Lovelace"), []
 
@@ -336,10 +337,10 @@ def test_half_the_duration_and_half_the_blend_cost_the_stated_accelerations():
     assert (before, told[0.05, 20.0]) == pytest.approx((least, most), abs=0.05)
 
 
-def test_a_shorter_line_makes_joint_1_slower_and_joint_6_first_faster():
+def test_a_shorter_line_makes_joint_1_slower_but_not_joint_4():
     """The speeds come from the Jacobian, on lines of another parametrisation than the cell's."""
-    first, last, needs, at = re.search(
-        r"from (\S+) to (\S+)°/s\. .* needs (\S+)°/s for the goal at −(\d+) mm",
+    first, last, at, needs = re.search(
+        r"from (\S+) to (\S+)°/s\. .* at (\d+) mm, joint 4 needs (\S+)°/s: the wrist is almost st",
         " ".join(sources("03")["lin-look"].split()),
     ).groups()
     g, _ = run("03", "race")
@@ -351,10 +352,10 @@ def test_a_shorter_line_makes_joint_1_slower_and_joint_6_first_faster():
         q = IRB140.ik(g["left"].lerp(goal, np.linspace(0, 1, 2001)))[:, 1]
         found = np.linalg.solve(IRB140.jacobian(q), np.tile(twist, (2001, 1))[..., None])[..., 0]
         speeds[y] = abs(found).max(axis=0) / deg
-    one, six = ([v[k] for v in speeds.values()] for k in (0, 5))
+    one, four = ([v[k] for v in speeds.values()] for k in (0, 3))
     assert one == sorted(one, reverse=True)
     assert (one[0], one[-1]) == pytest.approx((float(first), float(last)), abs=0.01)
-    assert speeds[-int(at)][5] == max(six) == pytest.approx(float(needs), abs=0.01)
+    assert speeds[int(at)].max() == max(four) == pytest.approx(float(needs), abs=0.01)
 
 
 def test_nearest_turns_joint_6_by_at_most_half_a_turn_and_changes_where_stated():
@@ -419,6 +420,45 @@ def test_answers_to_the_tasks_of_ones_own_are_true():
     assert gaps.min() == pytest.approx(told, abs=0.5)
 
 
+def test_sharp_corner_and_quintic_corner_of_lab_03_are_as_stated():
+    cells = sources("03")
+    most, hardly = re.search(
+        r"All six speeds jump, joint (\d)'s the most and joint (\d)'s hardly at all",
+        cells["corner-look"],
+    ).groups()
+    g, _ = run("03", "bezier-code")
+    start, via, goal = g["start"], g["via"], g["goal"]
+    q = IRB140.ik(blend(start, via, goal, 0, 0.5 + 1e-5 * np.arange(-1, 2)))[:, 1]
+    jumps = abs(np.diff(q, 2, axis=0)[0])
+    assert jumps.min() > 1e-3 * jumps.max() and jumps.argmax() + 1 == int(most)
+    assert jumps.argmin() + 1 == int(hardly) and jumps.min() < 0.05 * jumps.max()
+    text = " ".join(cells["effect-corner"].split())
+    assert "their weights are 1, 5, 10, 10, 5 and 1." in text
+    assert (
+        "the middle of the quintic is only 3/4 as far from via, and the tool's greatest "
+        "acceleration is 1.5" in text
+    )
+    weights, away = np.array([1, 5, 10, 10, 5, 1]) / 32, np.array([1, 0.6, 0.2, 0.2, 0.6, 1])
+    assert weights @ away == pytest.approx(3 / 4 * np.array([1, 2, 1]) / 4 @ [1, 0, 1])
+    peaks = []
+    for corner in ("parabola", "quintic"):
+        s = np.linspace(0.4, 0.6, 2001)
+        path = blend(start, via, goal, 0.1, s, corner=corner).translation
+        peaks.append(np.linalg.norm(np.diff(path, 2, axis=0), axis=1).max())
+    assert peaks[1] / peaks[0] == pytest.approx(1.5, rel=1e-4)
+
+
+def test_joint_3_stops_on_the_line_and_turns_back():
+    reason = " ".join(options("irb140_motion.p1")[1][1].reason.split())
+    most = number(r"joint 3 turns at up to (\S+)°/s, stops, and turns back", reason)
+    g, _ = run("03", "race")
+    s = np.linspace(0, 1, 4001)
+    q3 = follow(IRB140, IRB140.ik(g["left"].lerp(g["right"], s)), 1)[:, 2]
+    speed = np.gradient(q3, s * 20) / deg
+    assert (np.diff(np.sign(speed)) != 0).sum() == 1 and speed[0] * speed[-1] < 0
+    assert abs(speed).max() == pytest.approx(most, abs=0.05)
+
+
 def test_the_first_view_shows_how_near_the_path_can_pass():
     cells = sources("03")
     most = number(r"no joint needs more than (\d+)°/s²", cells["title"])
@@ -442,6 +482,15 @@ def test_the_first_view_shows_how_near_the_path_can_pass():
     assert away == pytest.approx(near, abs=0.05)
 
 
+def test_the_race_says_that_its_accelerations_come_from_our_choice():
+    g, _ = run("03", "race")
+    lag = number(r"Our choice of (\S+) s sets the accelerations", sources("03")["race"])
+    assert g["lags"].max() == pytest.approx(lag)
+    for q in g["runs"][1]:  # the arm that moves its joints in proportion
+        v, a = (abs(differentiate(q, g["stopwatch"], order)).max(axis=0) for order in (1, 2))
+        assert np.allclose(a, v / lag, rtol=0.08)  # the lags are 21 samples
+
+
 def test_ptp_wins_every_race_although_its_path_is_longer():
     """The joint speeds on the line come from the Jacobian, those of PTP from the joint values at
     both ends of the line.
@@ -450,6 +499,10 @@ def test_ptp_wins_every_race_although_its_path_is_longer():
     least, most = map(
         float, re.search(r"by (\S+) to (\S+) s,", sources("03")["ptp-formula"]).groups()
     )
+    text = " ".join(sources("03")["ptp-formula"].split())
+    place, joint = re.search(
+        r"for \$y = (\d+)\$, it is joint (\d), where the wrist is almost", text
+    ).groups()
     left, lead = g["left"], []
     for y, shown in zip(g["goal_ys"], g["race_times"], strict=True):
         goal = Transform(Quaternion.from_angle_axis(90 * deg, Y), (0.2, y * mm, 0.8))
@@ -459,6 +512,13 @@ def test_ptp_wins_every_race_although_its_path_is_longer():
         twist = np.concatenate([goal.translation - left.translation, angle * axis])
         speeds = np.linalg.solve(IRB140.jacobian(q), np.tile(twist, (len(s), 1))[..., None])[..., 0]
         straight = (abs(speeds) / IRB140.speed_limits).max()
+        if y == int(place):
+            k, slowest = np.unravel_index(
+                (abs(speeds) / IRB140.speed_limits).argmax(), speeds.shape
+            )
+            assert slowest + 1 == int(joint)
+            bent = abs(q[:, 4])  # joint 5 is zero where the wrist is straight
+            assert bent[k] < bent.min() + 0.1 * deg < 10 * deg
         direct = (abs(q[-1] - q[0]) / IRB140.speed_limits).max()
         assert np.allclose(shown, (straight, direct), rtol=1e-4)
         lead.append(straight - direct)
@@ -493,7 +553,7 @@ def test_no_circle_larger_than_the_stated_one_fits():
 
 def test_pale_curves_of_the_circle_belong_to_the_stated_radius():
     made, _ = run("04", "circles")
-    first = number(r"pale curves are those of the first value, (\d+) mm", sources("04")["limits"])
+    first = number(r"pale curves are for the first value, (\d+) mm", sources("04")["limits"])
     assert made["radii"][0] == first == made["radii"].min()
 
 
@@ -516,7 +576,7 @@ def test_elbow_plus_one_bends_to_the_left_in_both_labs():
     # seen along the first lever, the second one points to the left
     assert first[0] * second[1] - first[1] * second[0] > 0 and q2 > 0
     assert (
-        "with +1, the arm bends to the left, with −1 to the right"
+        "with +1, the arm bends to the left, and with −1, it bends to the right"
         in sources("04")["triangle-formula"]
     )
     assert "the elbow that bends to the left: joint 2 positive" in sources("05")["half-code"]
@@ -718,7 +778,7 @@ def test_stated_minimum_ratio_of_tool_speed_to_joint_speed_holds():
     assert float(needed) == int(speed) / int(most)
     assert round(float(needed) / (300 * deg), 3) == float(sigma)
     assert told[50] > float(needed) > told[20] and _passing()[1][20] < int(most)
-    assert "The line at 20 mm is below that" in text
+    assert "At a miss of 20 mm, $\\sigma$ is smaller" in text
 
 
 def test_each_of_two_joints_can_reduce_the_distance_from_a_singularity_to_0():

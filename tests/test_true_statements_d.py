@@ -69,7 +69,7 @@ def test_the_15_degree_grid_has_a_path_that_the_wavefront_search_does_not_find()
     assert least_distance([Q0, *(way * deg), last], H) >= DISTANCE
     assert abs(last - way[-1] * deg).max() < 15 * deg, "wanted less than a step of the grid"
     words = flat("10", "check-3-look")
-    assert "to a posture on the curve from the grid posture that is nearest to it" in words
+    assert "from the grid posture that is nearest to the curve to a posture on the curve" in words
 
 
 def test_adding_samples_never_increases_the_least_distance_found():
@@ -120,14 +120,17 @@ def test_gripper_distance_and_success_of_larger_circles_are_as_stated():
         lost += small < 1e-6 and large >= DISTANCE
     text = flat("10", "often-look")
     assert numbers(
-        r"paths of (\d+) tasks keep the .* the (\d+) tasks in .* none among the (\d+) in", text
+        r"paths of (\d+) tasks keep the .* the (\d+) tasks in .* none of them are among the (\d+) "
+        r"in",
+        text,
     ) == [
         mended,
         100 - swept,
         swept,
     ]
     _, options, _ = asked("obstacle_avoidance.p7")
-    assert lost == 0 and f"but none of the {swept:.0f} tasks in" in options[1].reason
+    assert lost == 0
+    assert f"none of these belong to the {swept:.0f} tasks in" in options[1].reason
     assert options[1].reason.startswith(f"{mended} of 100")
     assert f"Of the {swept} tasks" in options[2].second
     shown_view = view("obstacle_avoidance.p7")
@@ -140,7 +143,7 @@ def test_gripper_distance_and_success_of_larger_circles_are_as_stated():
 
 def test_the_middle_of_a_five_pointed_star_is_outside():
     ((_, says),) = mistakes("obstacle_avoidance", "any turns, not an odd number")
-    assert "the middle of a five-pointed star drawn in one line is outside" in says
+    assert "the middle of a five-pointed star drawn in a single stroke is outside" in says
     middle = np.array([0.01, 0.02])
     for points, step, inside in ((5, 2, False), (8, 3, True)):
         corners = np.array(LAB_10.module("inside_outside")["star_of"](points, step))
@@ -178,7 +181,7 @@ def test_paths_keep_their_clearance_and_sampled_obstacles_are_on_lever_ak():
 
 
 def test_more_pulses_do_not_always_take_more_time(capsys):
-    assert "more time if its motor then needs the most" in flat("11", "pulses-look")
+    assert "more time if its motor then has the most pulses" in flat("11", "pulses-look")
     q = station_postures(LOADER, np.array([[600, -350, 50], [50, 250, 350]]) * mm) / deg
     seconds = {}
     for gears in ((18, 72, 72), (36, 72, 72), (18, 144, 72), (18, 72, 144)):
@@ -191,8 +194,9 @@ def test_more_pulses_do_not_always_take_more_time(capsys):
 def test_straight_line_takes_longer_if_the_motor_at_the_limit_changes():
     words = flat("11", "deeper-straight-look")
     assert (
-        "longer than path d to the same goal if the motor that is at the limit changes on the "
-        "way. If it does not change, both take the same time" in words
+        "longer than path d to the same goal if different motors are at the limit on different "
+        "parts of the way. If the same motor is at the limit all the way, both take the same time"
+        in words
     )
     rng, kinds = np.random.default_rng(5), set()
     for _ in range(60):

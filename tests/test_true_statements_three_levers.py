@@ -134,10 +134,9 @@ def test_only_one_sum_of_the_angles_has_a_minimum_inside_the_range():
 
 
 def test_times_of_the_fastest_and_of_the_least_movement_are_as_stated():
-    alpha, longest, time, least, later = numbers(
+    alpha, longest, least = numbers(
         r"At \$\\alpha = (\S+)°\$\. Above it, \$\|\\Delta\\alpha\|\$ is larger; below it, "
-        r"\$\|\\Delta\\beta\|\$\. The largest turn is (\S+)° there, which takes (\S+) s\. "
-        r"With the least S it is (\S+)°, which takes (\S+) s\.",
+        r"\$\|\\Delta\\beta\|\$\. The largest turn is (\S+)° there, and (\S+)° with the least S\.",
         flat("09", "cost-look"),
     )
     alphas = np.linspace(*ends(FIRST), 40001)
@@ -149,6 +148,9 @@ def test_times_of_the_fastest_and_of_the_least_movement_are_as_stated():
     assert (change[: best - 10, 1] > change[best, 1]).all(), "beta turns more below it"
     turned = abs(least_from(FIRST, STAND)[1] - STAND).max() / deg
     assert turned == pytest.approx(least, abs=0.05)
+    _, options, right = asked("three_levers.p8")
+    told = r"after (\S+) s\. The one with the least S takes (\S+) s\."
+    time, later = numbers(told, options[right].text)
     assert [change[best].max() / 30, turned / 30] == pytest.approx([time, later], abs=0.005)
 
 
@@ -156,9 +158,9 @@ def test_best_first_posture_costs_what_section_6_says():
     words = flat("09", "greed-hand")
     (greedy,) = numbers(r"the joints of the greedy arm turn by (\S+)° in total", words)
     best, now, then, total, less, more = numbers(
-        r"Take α = (\S+)°\. The first task then costs (\S+)° and the second (\S+)°, (\S+)° in "
-        r"total, because β almost keeps its value in the second task\. The greedy arm turns (\S+)° "
-        r"less in the first task and (\S+)° more in the second",
+        r"Take α = (\S+)°\. The first task then costs (\S+)° and the second (\S+)°, which makes "
+        r"(\S+)° in total: β almost keeps its value in the second task\. The greedy arm turns "
+        r"(\S+)° less in the first task and (\S+)° more in the second",
         words,
     )
     targets = r"\[\(2\.4, 0\.4\), \((\S+), (\S+)\)\]"
@@ -184,14 +186,23 @@ def test_best_first_posture_costs_what_section_6_says():
 
 def test_both_arms_of_the_player_differ_for_the_stated_targets():
     words = flat("09", "greed-look")
-    wanted = numbers(r"For (\d+)° and (\d+)°\. There the planning arm has opened", words)
+    one, *first, two, greed, plan = numbers(
+        r"For (\d+)° \(greedy (\S+)°, planned (\S+)°\) and (\d+)° \((\S+)° and (\S+)°\)\. There "
+        r"the planning arm has opened",
+        words,
+    )
+    wanted = [one, two]
     made = run_cells("09", "greed-code", "greed-player")
     greedy, planned = (q[:, 600] for q in made["player_motions"])  # after 3 s
     apart = abs(greedy - planned).max(axis=1) / deg > 1
     assert made["player_angles"][apart].tolist() == wanted
     opened = (planned - greedy)[apart]
     assert (opened[:, 1] > 20 * deg).all() and (opened[:, 2] < -20 * deg).all()
-    assert "quantities=" in cells("09")["greed-player"]
+    turns = [abs(np.diff(q, axis=1)).sum(axis=(1, 2)) / deg for q in made["player_motions"]]
+    assert np.array(turns)[:, apart] == pytest.approx(
+        np.transpose([first, [greed, plan]]), abs=0.05
+    )
+    assert "joints=[], quantities=" in cells("09")["greed-player"]
 
 
 def test_random_choice_stays_away_from_the_obstacle_in_the_tasks_that_it_solves():

@@ -232,6 +232,26 @@ def test_quantity_has_its_own_panel(page, motions, tmp_path):
         assert np.allclose(line["values"], away[0, kept(one)], atol=0.5)
 
 
+def test_player_that_watches_no_joint_shows_only_its_quantities(page, tmp_path):
+    turned = np.abs(np.diff(HALVES, axis=0, prepend=HALVES[:1])).sum(axis=1).cumsum() / deg
+    several = {"turned, °": [turned, turned / 2], "left, °": [turned[::-1], turned]}
+    player = animate(
+        [IRB140] * 2, CLOCK, [HALVES] * 2, names=["A", "B"], joints=[], quantities=several
+    )
+    frames, words = opened(page, player, tmp_path)
+    assert len(frames) == 2 and {"turned, °", "left, °", "A", "B"} <= set(words)
+    assert not {"q1", "angle, °", "speed, °/s"} & set(words), "curves of joints"
+    menu = page.get_by_label("large panel")
+    assert menu.locator("option").all_inner_texts() == ["turned, °", "left, °"]
+    large = frames[0][3]
+    assert large > frames[1][3] and menu.input_value() == "0"
+    menu.select_option("1")
+    frames, _ = anew(page)
+    assert frames[0][3] < frames[1][3] == large
+    with pytest.raises(ValueError, match=r"watch: wanted one of \('d',\), got 'q'"):
+        animate(IRB140, CLOCK, HALVES, joints=[], watch="q", quantities={"d": turned})
+
+
 # --- Limits, rows and marks -----------------------------------------------------------------------
 
 
@@ -314,6 +334,7 @@ def test_each_mark_names_its_arm(page):
         ({"watch": 1}, "watch: wanted one of"),
         ({"joints": [0]}, "joints: wanted a whole number from 1 to 6"),
         ({"joints": 3}, "joints: wanted numbers"),
+        ({"joints": []}, "joints: an empty list is only for a player with quantities"),
         ({"quantities": [1, 2]}, "quantities: wanted a dict"),
         ({"quantities": {"d": np.zeros(5)}}, r"quantity d: wanted shape \(601,\)"),
         ({"quantities": {3: np.zeros(601)}}, "quantities: wanted a string"),

@@ -395,7 +395,15 @@ CALLS = {
     ),
     "conveyor_player": (
         figures.conveyor_player,
-        dict(v=0.2, spreads=np.array([0.0, 0.5, 1.0]), arms=3),
+        dict(
+            v=0.2,
+            spreads=np.array([0.0, 0.5, 1.0]),
+            arms=3,
+            rules=False,
+            bin_place=np.array([0.15, -0.45, 0.25]),
+            gap=0.15,
+            seed=8,
+        ),
     ),
     "singularity_explorer": (
         figures.singularity_explorer,

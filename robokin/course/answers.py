@@ -8,6 +8,7 @@ import copy
 import ctypes
 import dis
 import io
+import re
 import sys
 import threading
 import time
@@ -20,6 +21,7 @@ import numpy as np
 
 from ..transform import Transform
 from . import page
+from .slips import ERRORS
 
 SECONDS = 4.0  # seconds of CPU time for one case, or for one program of a test
 TOTAL = 30.0  # seconds of CPU time for all cases together
@@ -125,9 +127,8 @@ def _call(answer: Callable[..., Any], case: tuple[Any, ...]) -> Outcome:
     except TimeUp:
         return NEVER
     except BaseException as error:  # SystemExit and KeyboardInterrupt too
-        return Outcome(
-            name="raises an error", says=f"It raises {_told(error)}{_where(answer, error)}."
-        )
+        says = f"It raises {_told(error)}{_where(answer, error)}.{_advice(error)}"
+        return Outcome(name="raises an error", says=says)
     if not all(map(equal, inputs, case)):
         return Outcome(name="changes its input", says="It changes its input. Make a copy first.")
     if result is None:
@@ -156,6 +157,15 @@ def _told(error: BaseException) -> str:
             text = "an array is used as a condition; use .all() or .any(), or one of its values"
         return f"{type(error).__name__}: {text[:160]}" if text else type(error).__name__
     return type(error).__name__
+
+
+def _advice(error: BaseException) -> str:
+    """Say what to write instead, after a well-known error; otherwise nothing."""
+    with contextlib.suppress(Exception):
+        for pattern, advice in ERRORS if isinstance(error, TypeError) else ():
+            if re.search(pattern, str(error)):
+                return f" {advice}"
+    return ""
 
 
 class _Worker:

@@ -180,6 +180,9 @@ def _trouble(outcome: Outcome, said: Any) -> tuple[str, str] | None:
     """The name and sentence for an answer that is neither True nor False."""
     if not isinstance(said, Outcome):
         return None
+    if outcome.name == "raises an error":
+        says = outcome.says.removeprefix("It raises")
+        return outcome.name, f"Your test has to return True or False; it raises{says}"
     if outcome.name:
         slow = outcome.name == "never ends"
         return outcome.name, f"{outcome.says} {SLOW}" if slow else outcome.says

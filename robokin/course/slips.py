@@ -1,5 +1,5 @@
 """Common slips in a result or an input of any exercise: wrong units, a wrong sign, rows and columns
-swapped.
+swapped; and what to write instead after a common TypeError.
 """
 
 from collections.abc import Callable
@@ -153,3 +153,26 @@ def fed(case: tuple[Any, ...], i: int, change: Program) -> tuple[Any, ...]:
     elif not (isinstance(value, np.ndarray) and value.dtype.kind == "f"):
         raise TypeError("wanted numbers")
     return (*case[:i], change(value), *case[i + 1 :])
+
+
+# (pattern in the message of a TypeError, sentence); the first that fits is used
+_MATHS = r"operand(?!.* @: ).*|argument .* not |not supported .*"
+ERRORS = (
+    (
+        rf"({_MATHS})'Transform'",
+        "A pose is not a vector: `pose.translation` is its position, `pose.rotation` its rotation.",
+    ),
+    (
+        rf"({_MATHS})'NoneType'",
+        "One of these values is None: does a function that you call have no `return`?",
+    ),
+    (
+        rf"({_MATHS})'(list|tuple)'|multiply sequence by non-int of type 'float'",
+        "A list is not a vector: compute with `np.array(...)`.",
+    ),
+    (
+        "'numpy.ndarray' object is not callable",
+        "An array is not a function: write `a[0]` for its first value, and `pose.translation` "
+        "without brackets.",
+    ),
+)

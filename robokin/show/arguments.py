@@ -195,11 +195,13 @@ def watch(panel: Any, joints: Any, names: list[str], arms: Sequence[Arm]) -> Wat
     """Return the panel and the joints to watch as page data."""
     kinds = ["q", "v", "a", *names]
     panel = (names or kinds)[0] if panel is None else panel
-    panel = choice(panel, "watch", kinds)
     chosen = None
     if joints is not None:
         most = max(len(arm.links) for arm in arms)
         chosen = [whole(j, "joints", 1, most) - 1 for j in several(joints, "joints", "numbers")]
+    if chosen == [] and not names:
+        raise ValueError("joints: an empty list is only for a player with quantities")
+    panel = choice(panel, "watch", names if chosen == [] else kinds)
     return {"panel": kinds.index(panel), "joints": chosen}
 
 

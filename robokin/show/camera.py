@@ -146,6 +146,13 @@ def standing(bases: Floats | None, count: int) -> Floats:
     return np.column_stack([flat, np.zeros(count)])
 
 
+def apart(bases: Floats | None) -> bool:
+    """Return whether the arms of one picture stand at different places. Their frames are not drawn
+    then, because in a row they would hide what the arms do.
+    """
+    return bases is not None and bool((bases != bases[0]).any())
+
+
 def outermost(points: Floats) -> list[list[float]]:
     """Return about fifty points (k, 3) that must be visible: those farthest out in evenly spread
     directions.

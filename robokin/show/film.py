@@ -10,7 +10,7 @@ from .._arrays import Floats, Ints
 from ..arms.arm import Arm
 from ..transform import Transform
 from . import plots
-from .camera import flange, standing
+from .camera import apart, flange, standing
 from .drawing import Image, require
 from .page import PageScene
 from .saving import MARK
@@ -116,7 +116,8 @@ class Film:
         """Draw the arms and the moving things, with their labels, at one sample."""
         for arm, q, base in arms:
             scene.arm(arm, q[sample], "last", base)
-            scene.triad(Transform(translation=base) @ flange(arm, q[sample]), width=2.4)
+            if not apart(self.bases):
+                scene.triad(Transform(translation=base) @ flange(arm, q[sample]), width=2.4)
         for thing in self.things:
             if thing.moves:
                 thing.draw(scene, sample)

@@ -12,6 +12,7 @@ from functools import cache
 from importlib.resources import files
 
 from .._validate import short
+from .palette import css
 
 IMPORT = re.compile(r'import\s*\{\s*([\w$]+(?:,\s*[\w$]+)*),?\s*\}\s*from\s*"\./(\w+)\.js";')
 EXPORT = re.compile(r"export\s+((?:async\s+)?function|const|class)\s+([\w$]+)")
@@ -48,9 +49,10 @@ def script(name: str) -> str:
 def compressed(name: str) -> tuple[str, str]:
     """Return the script of the module `name` in the form that `loader.js` reads: its key, which is
     a hash of its text, and the script itself, compressed with zlib and encoded in base64. The
-    script adds the style sheets of `name` to the page and returns the exports of the module.
+    script adds the palette and the style sheets of `name` to the page and returns the exports of
+    the module.
     """
-    sheet = json.dumps(style(name), ensure_ascii=False)
+    sheet = json.dumps(css() + style(name), ensure_ascii=False)
     text = (
         'const sheet = document.createElement("style");\n'
         f"sheet.textContent = {sheet};\ndocument.head.append(sheet);\n"
@@ -121,10 +123,12 @@ def _add(modules: dict[str, str], name: str, importers: tuple[str, ...], place: 
 
 def _laid(pieces: list[tuple[str, str]]) -> str:
     """Lay out tokens in lines: a top-level statement begins a new line, and inner statements share
-    long lines.
+    long lines. A comma that Prettier puts after the last item of a list is left out.
     """
     lines, before, depth = [""], "", 0
     for token, gap in pieces:
+        if "\n" in gap and token[0] in ")]}" and re.search(r"[^,[],$", lines[-1]):
+            lines[-1] = lines[-1][:-1]  # a comma after the last item
         begins = "\n" in gap and before in (";", "{", "}") and token != "}"  # a new statement
         width = len(lines[-1])
         if begins and (not depth or width > 100) or width > 200 and before in (";", "{", ","):

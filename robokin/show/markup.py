@@ -8,7 +8,7 @@ import json
 from typing import Any
 
 from .joiner import compressed, script, style
-from .palette import css, figure_css
+from .palette import still_css
 
 STILL = (
     "A still picture. To see it move: run all cells (Run > Run All Cells), or trust the notebook "
@@ -50,7 +50,7 @@ def figure_image(
         f'<div class="{kind}"><img alt="{html.escape(alt)}" width="{width}" '
         f'height="{height}" style="max-width:min(100%,{width}px);min-width:{least}px;height:auto" '
         f'src="data:image/png;base64,{image}"></div>\n'
-        f"<style>{figure_css()}{style('elements')}\n</style>\n"
+        f"<style>{still_css()}{style('elements')}\n</style>\n"
     )
 
 
@@ -65,7 +65,7 @@ def output(call: str, name: str, text: str, still: str, nonce: str = "") -> str:
     tag = f"script nonce={nonce}" if nonce else "script"
     return (
         f'<div class="robokin-player" data-player="{name}">{still}</div>\n'
-        f"<style>{css()}{style('elements')}\n</style>\n"
+        f"<style>{still_css()}{style('elements')}\n</style>\n"
         f"<{tag}>(() => {{\n{script('loader')}\n"
         f'$loader.start("{name}", "{key}", "{bytes_of_script}", ${module} => {{\n'
         f'${call}("{name}", {text});\n}});\n}})();</script>\n'

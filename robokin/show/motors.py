@@ -46,7 +46,7 @@ WORDS = {
     "table": "Phase table: the windings that are on at each pulse.",
     "curves": "Steps over time: those sent, and those that the rotor makes. The text next to the "
     "curves says how the run ends.",
-    "curveTitle": "Steps sent and steps made by the rotor",
+    "curveTitle": "Steps sent and steps made",
     "curveTime": "time, ms",
     "sent": "sent",
     "made": "rotor",
@@ -218,7 +218,7 @@ def motor_explorer(motor: Stepper | None = None) -> Explorer:
         f"A stepper motor, {KINDS[kind]}, {opened.windings} windings, "
         f"{DRIVES[opened.drive]} drive, {opened.step * 180 / np.pi:.3g}° per step. "
         f"{PULSES} pulses at {FREQUENCY} per second: "
-        + (f"{lost} steps lost." if lost else "no step lost.")
+        + (f"{lost} steps lost." if lost else "no steps lost.")
     )
     return Explorer(_page(opened, summary), _picture(opened, summary))
 

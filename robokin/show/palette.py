@@ -101,16 +101,19 @@ STILL = {
 
 
 def css() -> str:
-    """Return the palette and the font as CSS. The colours are dark if JupyterLab, or a page
-    exported from it, says so; if it says nothing, they follow the reader's system. They are light
-    in print.
+    """Return the palette and the font of running views as CSS. The colours are dark if JupyterLab,
+    or a page exported from it, says so; if it says nothing, they follow the reader's system. They
+    are light in print.
     """
     return _themes(":is(.robokin-player,.rk)", f"--rk-font:{FONT};", {**PAGE, **STILL})
 
 
-def figure_css() -> str:
-    """Return the colours of a still picture as CSS that follows the same rules."""
-    return _themes(".robokin-figure", "", {"paper": PAGE["paper"], **STILL})
+def still_css() -> str:
+    """Return the colours that a page needs before a view runs, as CSS that follows the same rules.
+    Each stored view repeats them, so there are few.
+    """
+    roots = ":is(.robokin-player,.robokin-figure)"
+    return _themes(roots, "", {**{name: PAGE[name] for name in ("paper", "ink")}, **STILL})
 
 
 def _themes(roots: str, font: str, colors: Mapping[str, tuple[str, str]]) -> str:

@@ -50,6 +50,7 @@ WORDS_HERE = {
     "{reason}.",
     "out": "There is no path: {reason}.",
     "floor": "the goal is under the floor",
+    "near": "The goal is less than one pulse from the start.",
     "scene": "{name} and the paths of its gripper from the start to the goal at {values}. {says} "
     "{lengths}",
     "length": "{path} is {length} {unit} long.",
@@ -57,9 +58,9 @@ WORDS_HERE = {
 MEANT = (
     TAKE + "Click a row of the table: the arm follows that path. Path a: each motor runs at the "
     "limit until it is done; a small circle marks each point where a motor stops. Paths b and c: "
-    "the gripper moves in a straight line; on c, a motor reverses. Path d: all motors "
-    "stop together. The dots show all paths at the same moment. Off the line: the greatest "
-    "distance of a path from the straight line."
+    "the gripper moves in a straight line; on c, a motor reverses where a small circle is. Path d: "
+    "all motors stop together. The dots show all paths at the same moment. Off the line: the "
+    "greatest distance of a path from the straight line."
 )
 
 

@@ -20,7 +20,7 @@ from ..transform import Transform
 from ..units import deg, length_unit
 from . import arguments, findings, plots
 from .arguments import Targets
-from .camera import chain, extent, flange, scene_data, standing
+from .camera import apart, chain, extent, flange, scene_data, standing
 from .checks import plain, yes
 from .film import Film
 from .numbers import NOTHING, decimals, packed, rounded, scale, thin, tidy
@@ -81,7 +81,7 @@ def animate(
              everything
     bases    the places of several arms in one picture: (arms, 2), x and y in m; targets,
              points, circles and faces are then in coordinates of the floor. Named points
-             can label the arms
+             can label the arms. At different places, the arms show no frames of their tools
     faces    polygons to draw behind the arms, such as a conveyor belt: corners (k, 3), m
     readings changing numbers to write after the names of points: a dict that maps names to arrays
              (samples,) or arrays with the leading axes of q; each number stays until the next
@@ -90,7 +90,7 @@ def animate(
     watch    the large panel: "q", "v", "a", or the name of a quantity; None: the first quantity or,
              if there is none, q. The reader can choose another panel
     joints   the joints to watch, counted from one; the curves of other joints are faint. None: all
-             joints
+             joints. An empty list: there are no curves of joints, only those of `quantities`
     quantities  numbers with a panel of their own, such as a distance: a dict that maps "name, unit"
              to an array (samples,) or an array with the leading axes of q; for several arms, to a
              list with one array for each
@@ -249,7 +249,7 @@ def still_picture(
         ax = figure.add_axes((k / count, 0, 1 / count, 0.93))
         scene = Scene(ax, size=scene_page["size"], like=scene_page)
         for i in range(len(motions)) if count == 1 else [k]:
-            _still_arm(scene, *motions[i], feet[i])
+            _still_arm(scene, *motions[i], feet[i], framed=not apart(bases))
         for thing in things:
             thing.draw(scene, -1)
         scene.finish()
@@ -268,14 +268,17 @@ def still_picture(
     return figure
 
 
-def _still_arm(scene: Scene, arm: Arm, q: Floats, base: Floats) -> None:
-    """Draw the first and last posture of one arm at `base`, and the path of its tool."""
+def _still_arm(scene: Scene, arm: Arm, q: Floats, base: Floats, *, framed: bool) -> None:
+    """Draw the first and last posture of one arm at `base`, the path of its tool, and its last
+    frame if `framed`.
+    """
     exists = np.flatnonzero(np.isfinite(q).all(axis=-1))
     path = flange(arm, q[np.linspace(0, len(q) - 1, min(len(q), 1001)).astype(int)]).translation
     scene.base(base)
     if len(exists):
         scene.arm(arm, q[exists[0]], "first", base)
         scene.arm(arm, q[exists[-1]], "last", base)
-        scene.triad(Transform(translation=base) @ flange(arm, q[exists[-1]]), width=2.4)
+        if framed:
+            scene.triad(Transform(translation=base) @ flange(arm, q[exists[-1]]), width=2.4)
     if np.isfinite(path).all(axis=-1).any():
         scene.trace(path + base)

@@ -144,7 +144,11 @@ def numbered(lab, name):
         for c in json.loads(lab.page.locator("#rk-lab").text_content())["cells"]
         if not c["asks"]
     }
-    return {k: cell["id"] for k, cell in enumerate(cells) if cell["id"] in runs}
+    return {
+        k: cell["id"]
+        for k, cell in enumerate(cells)
+        if cell["id"] in runs and lab.button(cell["id"], "Run").count()
+    }
 
 
 def turn(name):
@@ -234,7 +238,7 @@ def memory(bench):
 def drag(bench):
     with bench.lab("10_obstacle_avoidance") as lab:
         lab.run("plan-explorer")
-        view = lab.cell("plan-explorer").locator(".rk-mine .robokin-player")
+        view = lab.cell("plan-explorer").locator(".robokin-player:visible")
         view.scroll_into_view_if_needed()
         lab.page.wait_for_function(
             "view => view.dataset.awake !== undefined", arg=view.element_handle()

@@ -16,14 +16,17 @@ from robokin.jobs.conveyor import BIN, ways_from
 from .shared import COUNT as OBJECTS
 from .shared import Floats, taken
 
-COUNT = 4
-KEYS = ("bin", "least", "arms")
+COUNT = 5
+KEYS = ("bin", "least", "missed", "arms")
 LOW, HIGH = np.array([[150, -450], [350, 450]]) * mm  # where the bin may stand: x and y
 HEIGHT = 250 * mm
 CORNER = (350 * mm, -450 * mm)  # the least time of one object
 MOST_ARMS = 12
+# A rounding error can decide which of two objects an arm takes; from then on it takes others.
+ROUNDED = 0.2
 Fault = tuple[str, str]
-Line = tuple[tuple[float, float], int, int]  # the bin, the bound, the arms
+# the bin, the bound, what so few arms miss, the arms
+Line = tuple[tuple[float, float], int, int, int]
 
 
 @cache
@@ -32,12 +35,17 @@ def ways(place: tuple[float, float]) -> Floats:
     return ways_from([*place, HEIGHT])
 
 
-def none_missed(numbers: Mapping[str, Any], place: tuple[float, float], arms: int) -> bool:
+def missed(numbers: Mapping[str, Any], place: tuple[float, float], arms: int) -> list[int]:
+    """How many objects of each stream these arms miss."""
     v, gap, spread = (float(numbers[name]) for name in ("v", "gap", "spread"))
-    return all(
-        taken(v, spread, ways(place), gap=gap, arms=arms, seed=seed) == OBJECTS
+    return [
+        OBJECTS - taken(v, spread, ways(place), gap=gap, arms=arms, seed=seed)
         for seed in numbers["seeds"]
-    )
+    ]
+
+
+def none_missed(numbers: Mapping[str, Any], place: tuple[float, float], arms: int) -> bool:
+    return not any(missed(numbers, place, arms))
 
 
 def needed(numbers: Mapping[str, Any], place: tuple[float, float]) -> int:
@@ -68,7 +76,7 @@ def given(who: Any) -> Numbers:
 
 def form(answer: Any, numbers: Any) -> Line:
     if not isinstance(answer, Mapping) or not set(KEYS) <= set(answer):
-        wanted = 'wanted {"bin": [x, y] in m, "least": a whole number, "arms": a whole number}'
+        wanted = 'wanted {"bin": [x, y] in m} and whole numbers for "least", "missed" and "arms"'
         raise ValueError(f"{wanted}, got {in_words(answer)}")
     try:
         place = floats(answer["bin"])
@@ -85,11 +93,11 @@ def form(answer: Any, numbers: Any) -> Line:
         if not 0 <= value <= 1000 or value % 1:
             raise ValueError(f"{key}: wanted a whole number, got {in_words(answer[key])}")
         counts.append(int(value))
-    return (float(place[0]), float(place[1])), counts[0], counts[1]
+    return (float(place[0]), float(place[1])), counts[0], counts[1], counts[2]
 
 
 def faults(line: Line, numbers: Any) -> list[Fault]:
-    place, least, arms = line
+    place, least, told, arms = line
     if (np.array(place) < LOW - 1e-9).any() or (np.array(place) > HIGH + 1e-9).any():
         name = "millimetres for metres" if max(map(abs, place)) > 2 else "the bin is somewhere else"
         says = (
@@ -102,6 +110,11 @@ def faults(line: Line, numbers: Any) -> list[Fault]:
     if least != bound["the bound"]:
         name = next((each for each, n in bound.items() if n == least), "another bound")
         found.append((name, WHY.get(name, WHY["another bound"])))
+    lost = missed(numbers, place, bound["the bound"])
+    if abs(told - sum(lost)) > ROUNDED * sum(lost):
+        slips = {lost[0]: "one stream of three", 3 * OBJECTS - sum(lost): "taken for missed"}
+        name = slips.get(told, "another number of missed objects")
+        found.append((name, WHY[name]))
     most = int(numbers["most"])
     if arms < 1 or arms > MOST_ARMS or not none_missed(numbers, place, arms):
         too_few = 1 <= arms <= MOST_ARMS
@@ -124,6 +137,10 @@ WHY = {
     "the bin of the lab": "You used c of the lab's bin. Your bin has a different c.",
     "the mean over the window": "You used the mean over the window. That is not a bound, because "
     "the arms may take most objects near the bin. Use the least time.",
+    "one stream of three": "That is what the arms miss of the first stream. Add the other two.",
+    "taken for missed": "So many of the 600 objects are taken. Give the number that is missed.",
+    "another number of missed objects": "Let as many arms as the bound for your bin serve each of "
+    "your three streams, and add up what they miss.",
     "another bound": "The bound is c v / g, rounded up: c is 2 ways_from([x, y, 0.25]).min() for "
     "your bin, and g is the mean gap.",
 }

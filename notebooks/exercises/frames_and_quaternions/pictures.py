@@ -17,7 +17,7 @@ def p1_view() -> Any:
     tip = Transform(frame.rotation, frame @ (100 * mm * X))
     return plot_frames(
         [frame, tip],
-        names=["the rotated frame", "where the point goes"],
+        names=["the rotated frame", "moved point"],
         size=60 * mm,
         title="The point is 100 mm along the x axis of the rotated frame",
     )
@@ -48,7 +48,7 @@ def p2_view() -> Any:
         xlabel="x, mm",
         ylabel="y, mm",
         aspect="equal",
-        xlim=(-120, 460),
+        xlim=(-120, 520),
         ylim=(-30, 330),
     )
     fig.tight_layout()

@@ -6,12 +6,13 @@ from typing import Any
 
 import numpy as np
 
-from robokin import Quaternion, Transform, deg, mm
+from robokin import Arm, Quaternion, Transform, deg, dh_links, mm
 from robokin.course.exercises import in_words
 from robokin.course.told import apart, floats
 
 from .shared import Floats, Z, rot, trans
 
+__all__ = ["Arm", "dh_links"]
 Case = tuple[Floats, Floats, Floats]
 
 
@@ -21,6 +22,7 @@ def cases(rng: np.random.Generator) -> list[Case]:
     def case(rows: list[list[float]], q: list[float], base_part: Floats = part) -> Case:
         return np.array(rows) * [deg, mm, mm, deg], np.array(q) * deg, base_part
 
+    # `Arm` refuses a flange that cannot leave axis 1, so these tables need a chain of one's own
     found = [
         case([[0, 0, 0, 0]], [0]),
         case([[0, 300, 0, 0]], [0]),

@@ -87,6 +87,7 @@ def p4_view() -> Any:
     curves(axes[0], T, progress, xlabel="time t, s", title="progress s")
     curves(axes[1], T, speed, xlabel="time t, s", title="speed of s, 1/s")
     curves(axes[2], T, acceleration, xlabel="time t, s", title="acceleration of s, 1/s²")
+    axes[2].get_legend().remove()  # it would cover a curve; the other two panels have one
     fig.tight_layout()
     return fig
 
@@ -95,10 +96,10 @@ def p5_view() -> str:
     lines = ["Joint 3 at t = 10 s, by differences of samples:"]
     for step in (0.02, 0.01, 0.005):
         change, a = corner_change(step)
-        twice = abs(differentiate(sharp(step), clock(step), 2)[:, 0]).max()
+        twice = abs(differentiate(sharp(step), clock(step), 2)[:, 0]).max() / deg
         lines.append(
-            f"step {step:g} s: the speed changes by {change:.3f} rad/s; second differences "
-            f"{a:.1f} rad/s²; differentiate(q, t, 2) {twice:.1f} rad/s²"
+            f"step {step:g} s: the speed changes by {change:.1f}°/s; second differences "
+            f"{a:.0f}°/s²; differentiate(q, t, 2) {twice:.0f}°/s²"
         )
     lines.append(
         "The change of the speed stays the same: it is a property of the robot's motion. The "
@@ -126,8 +127,8 @@ def p7_view() -> str:
     for b, parabola, quintic in found:
         more = f"{100 * (quintic / parabola - 1):+.0f} %".translate(MINUS)
         lines.append(
-            f"{b / 2 * D / mm:.1f} mm: parabola (blend {b:.2f}) {parabola:.4f} rad/s², quintic "
-            f"(blend {b / 0.75:.3f}) {quintic:.4f} rad/s², {more}"
+            f"{b / 2 * D / mm:.1f} mm: parabola (blend {b:.2f}) {parabola:.2f}°/s², quintic "
+            f"(blend {b / 0.75:.3f}) {quintic:.2f}°/s², {more}"
         )
     return "\n".join(lines)
 

@@ -1,7 +1,7 @@
 """The facts behind the predictions of irb140 motion.
 
-Objective 1: p1, p3. Objective 2: p6, p7. Objective 3: p5. Under "More": p2, p4 (of objective 1), p9
-(of 2), p8 and p10 (of 3).
+Objective 1: p6, p7. Objective 2: p3. Objective 3: p5. p1 is about the straight line. Under "More":
+p2 and p4 (of the straight line and of objective 2), p9 (of 1), p8 and p10 (of 3).
 """
 
 from collections.abc import Mapping
@@ -155,9 +155,9 @@ def sharp(step: float) -> Floats:
 
 def corner_change(step: float) -> tuple[float, float]:
     """Where two straight motions meet: the greatest change of joint 3's speed from one interval to
-    the next, in rad/s, and this change divided by the step.
+    the next, in °/s, and this change divided by the step.
     """
-    v = np.diff(sharp(step)[:, 0]) / step
+    v = np.diff(sharp(step)[:, 0]) / step / deg
     change = float(abs(np.diff(v)).max())
     return change, change / step
 
@@ -188,12 +188,12 @@ def p6() -> dict[str, Any]:
 
 
 def joint_3(fractions: Floats, corner: str) -> Floats:
-    """The greatest acceleration of joint 3 for each blend, in steps of 1 ms: with 20 ms the fourth
-    digit is too low.
+    """The greatest acceleration of joint 3 for each blend, in °/s², from samples 1 ms apart: with
+    20 ms the fourth digit is too low.
     """
     t = np.linspace(0, DURATION, 20_001)
     path = blend(START, VIA, GOAL, fractions[:, None], t / DURATION, corner=corner)
-    a = differentiate(follow(IRB140, IRB140.ik(path), ROW), t, 2)
+    a = differentiate(follow(IRB140, IRB140.ik(path), ROW), t, 2) / deg
     greatest: Floats = abs(a[..., 2]).max(axis=-1)
     return greatest
 

@@ -73,7 +73,13 @@ def cases(rng: np.random.Generator) -> list[Case]:
         one_joint(6, 250, -50, limits=OTHER),  # 310 is outside
         one_joint(4, 350, 10, limits=OTHER),  # 370 is outside
     ]
-    while len(found) < 44:
+    found += [  # a joint without a value inside its limits; `nearest` moves it to one outside them
+        one_joint(3, 20, 100),
+        one_joint(3, 20, 190, limits=OTHER),
+        case(HOME, [40, 150, -40, 5, 30, -170], six),
+        case(HOME, [-60, -120, 130, -170, -160, 120], [0.2, 0.25, 0.9], OTHER),
+    ]
+    while len(found) < 48:
         limits = (IRB140.limits, OTHER)[len(found) % 2]
         low, high = limits.T
         q0 = rng.uniform(low, high).round(2)
@@ -98,13 +104,18 @@ def law(case: Case, yours: Floats, wanted: Floats) -> str | None:
     q0, q1, s, limits = case
     if yours.shape != wanted.shape:
         return f"should have the shape {wanted.shape}: a row of six joint values for each s"
-    wrong = ~(abs(yours - wanted) <= 1e-6)
+    wrong = ~np.isclose(yours, wanted, rtol=0, atol=1e-6, equal_nan=True)
     if not wrong.any():
         return None
     i = int(wrong.any(axis=0).argmax())
     k = int(wrong[:, i].argmax())
     ends = q0[i], short_end(q0, q1, limits)[i], *limits[i]
     a, b, low, high = (round(float(x) / deg, 1) + 0.0 for x in ends)
+    if np.isnan(wanted[k, i]):
+        return (
+            f"joint {i + 1} has no value inside its limits of {low:g}° and {high:g}°: its column "
+            f"should be NaN, but at s = {s[k]:.3g} it is at {yours[k, i] / deg:.1f}°"
+        )
     at, is_at = apart(wanted[k, i] / deg, yours[k, i] / deg)
     return (
         f"joint {i + 1} should turn from {a:g}° to {b:g}° (its limits are {low:g}° and {high:g}°): "

@@ -64,8 +64,8 @@ def law(case: tuple[Any, ...], yours: Floats, wanted: Floats) -> str | None:
     off = abs(np.append(yours[:1] - wanted[:1], wrapped(yours[1:] - wanted[1:])))
     if off.max() <= 1e-6:
         return None
-    angles = zip("αγβ", wanted + 0.0, strict=True)
-    says = f"should be {', '.join(f'{name} = {x / deg:.2f}°' for name, x in angles)}"
+    right, given = apart(wanted / deg, yours / deg, 2)
+    says = f"α, γ, β should be {right} degrees, not {given}"
     if not off[0] <= 1e-6 and not (point[0] or point[1]):
         return f"{says}: on the axis joint 1 stays at {before / deg:.1f}°"
     if np.isnan(yours).any():

@@ -43,7 +43,7 @@ def pulses_of(q: Floats, gears: Floats) -> Floats:
 
 def given(who: Any) -> Numbers:
     """Two points on either side of the direction 180°, the greatest miss and frequency that are
-    allowed, and a time with some margin.
+    allowed, and about 1.2 times the time that the smallest gears need.
     """
     roll = dice("motor_synchronisation", who)
     while True:
@@ -59,7 +59,8 @@ def given(who: Any) -> Numbers:
         turns = abs(np.diff(postures(places), axis=0)[0] / deg)
         if (turns > 12).all() and np.ptp(np.sort(turns)[1:]) > 8:
             break
-    needed = float(turns.max()) * int(np.ceil(COARSE.max() / miss - 1e-9)) / STEP / most
+    least = np.ceil(COARSE / miss - 1e-9)  # the smallest gears that are fine enough
+    needed = float((turns * least).max()) / STEP / most
     values: dict[str, Any] = dict(zip(ENDS, places, strict=True))
     values |= {"miss": miss, "most": most, "seconds": float(np.ceil(12 * needed) / 10)}
     units = dict.fromkeys([*ENDS, "miss"], ("mm", mm))

@@ -87,7 +87,8 @@ def geared() -> dict[str, Move]:
 
 def path(move: Move) -> Floats:
     """The gripper's path in mm."""
-    q = joint_values(move(np.linspace(0, move.duration, 1001)), GEARED)
+    t = np.union1d(np.linspace(0, move.duration, 1001), move.t)
+    q = joint_values(move(t), GEARED)
     return np.asarray(LOADER.fk(q).translation / mm)
 
 

@@ -57,7 +57,9 @@ def p1_view() -> Any:
         ax.text(0, -0.3, "found" if says else "missed", ha="center")
         ax.set(aspect="equal", title=name, xticks=[], yticks=[], xlim=(-0.8, 0.8), ylim=(-0.8, 0.8))
         ax.set(xlabel="x", ylabel="y")
-    fig.axes[0].legend(loc="upper left", fontsize=9)
+    fig.legend(
+        handles=fig.axes[0].get_legend_handles_labels()[0], loc="upper right", ncols=2, fontsize=9
+    )
     fig.suptitle("The test finds H in one of four positions of the drawing")
     fig.tight_layout()
     return fig
@@ -86,7 +88,10 @@ def p2_view() -> Any:
     draw(ax, start, "before", color=INK)
     draw(ax, end, "after", color=SECOND)
     plane(ax, (-1.6, -0.2), (3.6, 2.3), "Most of what AK sweeps lies outside the quadrilateral")
-    ax.legend(loc="upper right", fontsize=8)
+    samples: Any = ax.legend(loc="upper right", fontsize=8).legend_handles
+    # as small as in the drawing, the pale squares are hard to see (no loop: a page has a stand-in)
+    samples[0].set_markersize(9)
+    samples[1].set_markersize(9)
     fig.tight_layout()
     return fig
 

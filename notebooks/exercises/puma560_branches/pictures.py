@@ -72,6 +72,7 @@ def p9_view() -> Sketch:
     )
     sketch.levers([np.zeros(2), elbow, wrist], ["shoulder", "elbow", "wrist centre"])
     sketch.length((0, 0), wrist)
+    sketch.ax.margins(x=0.5)  # so that the names are inside the frame
     return sketch
 
 

@@ -5,6 +5,8 @@ from dataclasses import replace
 from math import ceil, sqrt
 from typing import Any
 
+import numpy as np
+
 from robokin.course.exercises import in_words
 from robokin.course.told import apart, one_number
 from robokin.course.variants import Numbers, dice
@@ -63,7 +65,7 @@ def faults(answer: Ramp, numbers: Any) -> list[Fault]:
             found.append((name, says))
     if takes > within:
         took, allowed = apart(takes, within, 2)
-        says = f"The move takes {took} s; {allowed} s are allowed."
+        says = f"The move takes {took} s; {allowed} s are allowed. {too_slow(answer, within)}"
         late = answer[2] > 1 and ramp(PULSES, *answer[:2], answer[2] / 1000)[-1] <= within
         if late:
             says += " The time of the ramp is in seconds."
@@ -72,6 +74,21 @@ def faults(answer: Ramp, numbers: Any) -> list[Fault]:
 
 
 WAYS = "A ramp that begins lower, ends lower, or takes longer usually loses fewer steps."
+
+
+def too_slow(answer: Ramp, within: float) -> str:
+    """Why the move takes too long, and what to change."""
+    start, end, seconds = answer
+    needed = PULSES / within
+    if end < needed:
+        return f"The mean frequency should be at least {ceil(needed)} pulses/s: raise `end`."
+    top = 1 / float(np.diff(ramp(PULSES, *answer)).min())
+    if top < 0.99 * end:
+        return (
+            f"In {seconds:g} s, the frequency would rise to {end:.0f} pulses/s, but the move is so "
+            f"short that it reaches only {top:.0f}: shorten the ramp."
+        )
+    return "Raise `start` or `end`, or shorten the ramp."
 
 
 def why_lost(answer: Ramp, load: float) -> str:

@@ -30,7 +30,7 @@ def p1_view() -> Any:
             q = joints(lin(start, GOAL, FEW / 20))[:, i] / (mm if i == 3 else deg)
             ax.plot(FEW, q, style, color=JOINT_STYLES[i]["color"], lw=2)
             if i == 2:
-                ax.text(0.6, q[0] + 9, f"{angle}°", fontsize=10)
+                ax.text(0.6, q[0] + 14, f"{angle}°", fontsize=10)
         ax.set(xlabel="t, s", title=f"q{i + 1}, {'mm' if i == 3 else '°'}")
     fig.suptitle("Three tool angles at the start (0°, 45°, 90°): only joint 3 differs")
     fig.tight_layout()

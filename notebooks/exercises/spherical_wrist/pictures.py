@@ -93,7 +93,7 @@ def p8_view() -> Any:
     )
     ax = fig.subplots()
     near = abs(PLACES) <= 5.01 * mm
-    for miss, color, at in ((2, FIRST, 1.2), (1, SECOND, 0.4)):
+    for miss, color, at in ((2, FIRST, 1.35), (1, SECOND, 0.5)):
         speed = joint4_speeds(miss * mm)
         ax.plot(PLACES[near] / mm, speed[near], color=color, lw=2)
         beside = f"{miss} mm beside: {speed.max():.0f}°/s"

@@ -15,32 +15,39 @@ TABLE = [np.append(column, 0.0) for column in (A, ALPHA, D, OFFSET)]
 
 
 def cases(rng: np.random.Generator) -> list[tuple[Any, ...]]:
-    """Simple tables, the lab's own, then tables of 3 to 7 rows."""
+    """Simple tables, first with beta = 0, the lab's own, then tables of 3 to 7 rows."""
 
-    def case(a: Any, alpha: Any, d: Any, offset: Any, q: Any) -> tuple[Any, ...]:
-        units = mm, deg, mm, deg, deg
-        columns = a, alpha, d, offset, q
+    def case(a: Any, alpha: Any, d: Any, offset: Any, q: Any, beta: Any = 0) -> tuple[Any, ...]:
+        units = mm, deg, mm, deg, deg, deg
+        columns = a, alpha, d, offset, np.broadcast_to(beta, len(q)), q
         return tuple(np.array(x, float) * unit for x, unit in zip(columns, units, strict=True))
 
     level = [300, 200, 100], [0, 0, 0], [0, 0, 0], [0, 0, 0]
+    upright = [0, 300, 200], [90, 0, 0], [400, 0, 0], [0, 0, 90]
     made = [
         case([300], [90], [200], [0], [30]),
         case(*level, [30, 40, -20]),
         case([0, 300, 200], [90, 0, 0], [400, 0, 0], [0, 0, 0], [0, 0, 0]),
         case([0, 300, 200], [90, 0, 0], [400, 0, 0], [0, 0, 0], [30, 40, -20]),
-        case([0, 300, 200], [90, 0, 0], [400, 0, 0], [0, 0, 90], [30, 40, -20]),
+        case(*upright, [30, 40, -20]),
         case([0, 300, 200], [-90, 0, 90], [400, 50, 0], [45, 0, 0], [-100, 40, 10]),
         case([50, 300, 200, 0], [90, 0, 90, 0], [400, 0, 0, 80], [0, 90, 0, -90], [0, 0, 0, 0]),
+        case(*level, [0, 0, 0], [10, 0, 0]),
+        case(*level, [30, 40, -20], [10, -5, 0]),
+        case(*upright, [0, 0, 0], [10, 0, 0]),
+        case(*upright, [30, 40, -20], [5, 10, 0]),
     ]
-    table = A, ALPHA, D, OFFSET
+    table, true, bent = (A, ALPHA, D, OFFSET), np.zeros(6), posture(0.5, -0.3, 0.2, -1, 0.8, 0)
     for q in ([0, 0, 0, 0, 0, 0], [20, 70, -60, 30, 50, 10], [0, 90, 45, 13, 42, 210]):
-        made.append((*table, posture(*q)))
-    made.append((A, ALPHA, D, 0 * OFFSET, posture(30, -40, 50, 60, -70, 80)))
+        made.append((*table, true, posture(*q)))
+    made.append((A, ALPHA, D, 0 * OFFSET, true, posture(30, -40, 50, 60, -70, 80)))
+    made.append((*table, bent, posture(20, 70, -60, 30, 50, 10)))
     for n in (3, 4, 5, 6, 7, 6, 4, 3):
         lengths = rng.uniform(-400, 400, (2, n)).round()
         twist = 90.0 * rng.integers(-1, 3, n) + (15.0 * rng.integers(-2, 3, n) if n > 4 else 0)
         home, angles = 90.0 * rng.integers(-1, 3, n), rng.uniform(-170, 170, n).round()
-        made.append(case(lengths[0], twist, lengths[1], home, angles))
+        bend = rng.uniform(-8, 8, n).round(1)
+        made.append(case(lengths[0], twist, lengths[1], home, angles, bend))
     return made
 
 

@@ -49,6 +49,7 @@ def cases(rng: np.random.Generator) -> list[Case]:
         case([0, 0], [1.2, 0.7], 1.0, 0.8, +1),
         case([0, 0], [1.2, 0.7], 1.0, 0.8, -1),
         case([0.2, -0.1], [1.3, 0.6], 1.0, 0.7, +1),
+        case([0.2, -0.1], [1.3, 0.6], 1.0, 0.7, 0),  # between both elbows
         case([0, 0], [0, 1.1], 1.0, 0.7, +1),  # straight up: dx = 0
         case([0, 0], [0, 1.1], 1.0, 0.7, -1),
         case([0, 0], [0, -1.1], 0.7, 1.0, +1),
@@ -61,6 +62,11 @@ def cases(rng: np.random.Generator) -> list[Case]:
         case([0, 0], [0.2, 0.4], 0.6, 1.0, +1),  # the line through the elbows is behind the base
         case([0, 0], [1.2, 0.9], 0.8, 0.5, +1),  # beyond the outer edge
         case([0, 0], [0.1, 0.1], 1.0, 0.7, -1),  # inside the inner edge
+        case([0, 0], [0, 1.1], 0.7, 1.0, 0),
+        case([0.1, 0.2], [1.9, 1.4], 1.0, 0.7, 0),  # out of reach, where only this point exists
+        case([0.3, 0.1], [0.3, 2.4], 0.9, 0.6, 0),
+        case([0, 0], [0.1, -0.2], 1.0, 0.7, 0),  # too near
+        case([0, 0], [-0.2, 0.1], 0.6, 1.0, 0),
         case([0.5, -0.2], [-1.4, 0.9], 0.9, 0.9, -1),
     ]
     more, less = 1.7 * (1 + 1e-10), 0.3 * (1 - 1e-10)  # past the rims by rounding alone
@@ -79,7 +85,7 @@ def cases(rng: np.random.Generator) -> list[Case]:
     found.append(case([0, 0], [1.7e-3 * (1 + 1e-7), 0], 1e-3, 0.7e-3, +1))  # a small arm
     found.append(case([0, 0], [0.1, 0.1], 0.7, 1.0, +1))  # too near, the second link longer
     found.append((np.array([0, 0]), np.array([1, 1]), 1, 1.2, -1))  # whole numbers
-    return found + [drawn(rng) for _ in range(44 - len(found))]
+    return found + [drawn(rng) for _ in range(50 - len(found))]
 
 
 def drawn(rng: np.random.Generator) -> Case:
@@ -92,9 +98,9 @@ def drawn(rng: np.random.Generator) -> Case:
 
 
 def exists(case: Case) -> bool:
-    base, tip, l1, l2, _ = case
+    base, tip, l1, l2, side = case
     d, slack = float(np.hypot(*(tip - base))), ROUNDING * (l1 + l2)
-    return bool(abs(l1 - l2) - slack <= d <= l1 + l2 + slack)
+    return side == 0 or bool(abs(l1 - l2) - slack <= d <= l1 + l2 + slack)
 
 
 def form(result: Any, case: Case) -> Place:
@@ -130,6 +136,11 @@ def law(case: Case, yours: Place, wanted: Place) -> str | None:
     if np.linalg.norm(mine - np.array(wanted)) <= 1e-6:
         return None
     one, two = np.hypot(*(mine - base)), np.hypot(*(mine - tip))
+    if side == 0:
+        return (
+            f"should be {wanted}, where the line through both elbows crosses the line from base to "
+            f"tip; this point exists even if the tip is out of reach"
+        )
     name = "right" if side > 0 else "left"
     says = f"should be {wanted}, {l1:.4g} m from the base and {l2:.4g} m from the tip"
     if not yours.found:
@@ -155,6 +166,13 @@ def same(a: Place, b: Place) -> bool:
 
 def polar(length: float, direction: float) -> Floats:
     return length * np.array([np.cos(direction), np.sin(direction)])
+
+
+def on_the_rim(a: float, d: float, l1: float, l2: float) -> float:
+    """The fraction a, or the end of link 1 as a fraction of d if the tip is out of reach."""
+    if d > l1 + l2:
+        return l1 / d
+    return a if d > abs(l1 - l2) else float(np.copysign(l1 / d, l1 - l2))
 
 
 def strict_root(h2: float) -> float:

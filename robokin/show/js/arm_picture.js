@@ -5,7 +5,7 @@ import {WORD, clear, colors, ink, jointColor, polygon, shape, spot, stroke} from
 import {distance, dot, frames, origin, plus, polyline, turned} from "./kinematics.js";
 import {triad} from "./triad.js";
 
-/** @import {PageLink} from "./page.js" */
+/** @import {PageLink, PageScene} from "./page.js" */
 /** @import {Camera} from "./camera.js" */
 /** @import {Context, Pixel, Point} from "./canvas.js" */
 /** @import {Label} from "./labels.js" */
@@ -16,6 +16,9 @@ import {triad} from "./triad.js";
  * A straight piece of an arm. `rod` says whether it is part of a prismatic joint.
  * @typedef {[from: Point, to: Point, rod: boolean]} Limb
  */
+
+/** The length of the axes of the flange's frame, as a fraction of the scene's size. */
+export const AXIS = 0.13;
 
 /**
  * Prepares an arm for drawing. The result contains a pen in the coordinates of the arm's base, the
@@ -107,7 +110,14 @@ export function drawStood(one) {
 }
 
 /**
- * Draws the frame of the flange; returns the letters of its axes.
+ * Whether the arms of one picture stand at different places.
+ * @param {Pick<PageScene, "bases">} scene
+ */
+export const apart = ({bases}) => new Set(bases?.map(String)).size > 1;
+
+/**
+ * Draws the flange and its frame; returns the letters of the axes. In a row of arms, the frames
+ * would hide what the arms do, and are left out.
  * @param {Stood} one
  * @returns {Label[]}
  */
@@ -115,7 +125,7 @@ export function drawFlange({g, cam, scene, faded, all, exists}) {
   if (!exists) return [];
   g.globalAlpha = faded ? 0.4 : 1;
   const flange = all[all.length - 1];
-  const letters = triad(g, cam, flange, 0.13 * scene.size, 3, 1);
+  const letters = apart(scene) ? [] : triad(g, cam, flange, AXIS * scene.size, 3, 1);
   spot(g, cam.to(origin(flange)), 3.6, colors.hub, colors.path, 1.8);
   g.globalAlpha = 1;
   return letters;

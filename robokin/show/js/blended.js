@@ -58,7 +58,7 @@ export function motionOf(data, state) {
     q,
     tool,
     gaps: new Set(recorded.gaps.flatMap((gap, i) => (gap ? [i] : []))),
-    near: passing(data, via.place, x => unturned(x).place, t, missing),
+    near: passing(data, via.place, x => unturned(x).place, t, tool),
     poseAt,
     times: times.sort((x, y) => x - y),
   };
@@ -137,29 +137,38 @@ export function motions(data, state) {
  * @param {Point} via
  * @param {(x: number) => Point} placeAt
  * @param {number[]} t
- * @param {boolean[]} missing
+ * @param {(Point|null)[]} tool
  * @returns {?Near}
  */
-function passing({unit}, via, placeAt, t, missing) {
-  const decimals = unit.size < 1 ? 1 : 3,
-    places = t.map(placeAt),
-    far = places.map(place => distance(place, via) / unit.size);
-  const steps = far.flatMap((_, i) => (i && !missing[i] && !missing[i - 1] ? [i] : []));
+function passing({unit}, via, placeAt, t, tool) {
+  const decimals = unit.size < 1 ? 1 : 3;
+  /** @type {(place: Point) => number} */
+  const from = place => distance(place, via) / unit.size;
+  const far = tool.map(place => place && from(place));
   let least = Infinity,
     at = NaN;
-  for (const i of steps.flatMap(i => [i - 1, i])) if (far[i] < least) [least, at] = [far[i], t[i]];
-  // only in these steps can the path come nearer to the via point than at the samples
-  for (const i of steps.filter(
-    k => Math.min(far[k - 1], far[k]) - distance(places[k], places[k - 1]) / unit.size < least,
-  )) {
-    const nearest = refinedMaximum(
-      x => -distance(placeAt(x), via) / unit.size,
-      t[i - 1],
-      t[i],
-      decimals,
-    );
-    if (-nearest.value < least) [least, at] = [-nearest.value, nearest.at];
+  /** @type {{low: number, begin: number, end: number}[]} */
+  const steps = [];
+  for (let i = 1; i < t.length; i++) {
+    const [a, b, x, y] = [tool[i - 1], tool[i], far[i - 1], far[i]];
+    if (!a || !b || x === null || y === null) continue;
+    if (x < least) [least, at] = [x, t[i - 1]];
+    if (y < least) [least, at] = [y, t[i]];
+    // a straight step comes no nearer to the via point than this
+    const low = (x + y - distance(a, b) / unit.size) / 2;
+    steps.push({low, begin: t[i - 1], end: t[i]});
   }
   if (!steps.length) return null;
+  /** @type {typeof steps} */
+  const joined = [];
+  for (const step of steps.filter(({low}) => low < least)) {
+    const last = joined.at(-1);
+    if (last && last.end === step.begin) last.end = step.end;
+    else joined.push(step);
+  }
+  for (const {begin, end} of joined) {
+    const nearest = refinedMaximum(x => -from(placeAt(x)), begin, end, decimals);
+    if (-nearest.value < least) [least, at] = [-nearest.value, nearest.at];
+  }
   return {place: placeAt(at), text: `${number(least, decimals)} ${unit.name}`};
 }

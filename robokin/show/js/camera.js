@@ -46,8 +46,8 @@ export function facing(right, up, corners, [left, top, width, height]) {
     y0 = Math.min(...ys),
     y1 = Math.max(...ys);
   const scale = Math.max(1e-9, Math.min(width / (x1 - x0 || 1), height / (y1 - y0 || 1)));
-  const cx = left + width / 2 - (scale * (x0 + x1)) / 2,
-    cy = top + height / 2 + (scale * (y0 + y1)) / 2;
+  const cx = left + (width - scale * (x0 + x1)) / 2,
+    cy = top + (height + scale * (y0 + y1)) / 2;
   return {
     scale,
     toward: cross(right, up),

@@ -3,9 +3,11 @@
 import {control, element} from "./elements.js";
 
 /**
- * Whether handles and controls are large enough for a finger. The style sheets have the same rule.
+ * Whether handles and controls are large enough for a finger, which paper does not need. The style
+ * sheets have the same rule.
  */
-export const large = () => matchMedia("(pointer: coarse), (max-width: 699px)").matches;
+export const large = () =>
+  matchMedia("screen and ((pointer: coarse) or (max-width: 699px))").matches;
 
 const ROOM = 520; // px: a narrower scene has no room for many large handles
 const FEW = 4; // the number of handles for which every scene has room

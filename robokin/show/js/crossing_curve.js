@@ -2,10 +2,12 @@
 // both elbows against the coordinate of the tip that changes.
 
 import {clear, colors, number, prepared, spot, stroke, upright, write} from "./canvas.js";
+import {placeLabels} from "./labels.js";
 
-/** @import {Context, Pixel, Point} from "./canvas.js" */
+/** @import {Box, Context, Pixel, Point} from "./canvas.js" */
 /** @import {Tracks} from "./crossing.js" */
 /** @import {CrossingExplorer, Found, State} from "./crossing_explorer.js" */
+/** @import {Label} from "./labels.js" */
 
 const MARGIN = {left: 34, right: 12, top: 24, bottom: 20}; // px
 
@@ -74,32 +76,32 @@ export function drawCurves(canvas, data, {tip}, {tracks, meets, elbows, formula,
     spot(g, [x(u(place)), y(at)], 4, colors.paper, colors.ink, 1.5);
   elbows.forEach((at, i) => spot(g, [x(u(tip)), y(at)], 3.5, [colors.accent, colors.near][i]));
   if (formula) spot(g, [x(u(tip)), y(formula)], 5, colors.ink);
-  nameCurves(g, rows, tracks[1], x, y);
+  nameCurves(g, rows, tracks[1], x, y, [left, MARGIN.top - 6, right - left, bottom - top + 6]);
   return {at: px => base[k] + ((px - middle) / ((right - left) / 2)) * reach};
 }
 
 /**
- * Writes the names of both elbows beside the middle of their curves.
+ * Writes the names of both elbows beside the middle of their curves, where they cover nothing.
  * @param {Context} g
  * @param {string[]} names
  * @param {Tracks | undefined} track  the track on the right
  * @param {(u: number) => number} x
  * @param {(at: Point) => number} y
+ * @param {Box} room
  */
-function nameCurves(g, names, track, x, y) {
+function nameCurves(g, names, track, x, y, room) {
   if (!track) return;
   const i = track.u.length >> 1,
-    heights = [track.right[i], track.left[i]].map(y),
-    upper = Number(heights[1] < heights[0]);
-  heights.forEach((height, k) =>
-    write(
-      g,
-      names[k],
-      x(track.u[i]),
-      Math.max(height + (k === upper ? -9 : 19), 30), // below the title
-      colors.ink,
-      11,
-      "center",
-    ),
-  );
+    heights = [track.right[i], track.left[i]].map(y);
+  const labels = heights.map((height, k) => {
+    /** @type {Label} */
+    const label = {
+      text: names[k],
+      at: [x(track.u[i]), height],
+      color: colors.ink,
+      away: [0, height > heights[1 - k] ? 5 : -5],
+    };
+    return label;
+  });
+  placeLabels(g, labels, room);
 }

@@ -9,7 +9,7 @@ import {dashes, drawPanel, FAINT, strength} from "./panel.js";
 
 /**
  * Panels with a common time axis. `large` is the index of the large panel. `names` contains the
- * names of the arms if there are several.
+ * names of the arms if there are several, and is empty otherwise.
  * @typedef {{panels: Panel[], large: number, names: string[]}} Curves
  */
 /** @typedef {ReturnType<typeof curvesView>} CurvesView */
@@ -44,13 +44,15 @@ export function curvesView(canvas, patterns, unit = "s") {
     const [g, w, h] = ready,
       t0 = times[0],
       t1 = times[times.length - 1];
-    const left = Math.max(48, 14 + widest(g, panels)),
-      right = w - (panels.some(p => p.axes.length > 1) ? 46 : 16);
+    const left = Math.max(48, 14 + widest(g, panels, 0)),
+      right = w - (panels.some(p => p.axes.length > 1) ? 14 + widest(g, panels, 1) : 16);
     span = [left, right - left, t0, t1];
     /** @type {Place} */
     const x = t => left + ((right - left) * (t - t0)) / (t1 - t0);
-    const begin = legend(g, entries(patterns, panels, names), left, right),
-      end = h - 24;
+    // a legend in one row is lower than the name of a plot
+    const end = h - 24,
+      shown = heights(panels.length, large, end - HEAD).map(([k]) => panels[k]),
+      begin = legend(g, entries(patterns, shown, names), left, right);
     let top = begin;
     for (const [k, height] of heights(panels.length, large, end - begin)) {
       /** @type {[number, number, number, number]} */
@@ -81,10 +83,10 @@ export function curvesView(canvas, patterns, unit = "s") {
  * @returns {[number, number][]}
  */
 export function heights(count, large, room) {
-  if (large < 0) return Array.from({length: count}, (_, k) => [k, room / count - HEAD]);
-  const others = Array.from({length: count}, (_, k) => k).filter(k => k !== large),
-    fit = Math.max(0, Math.floor((room - HEAD - LARGE) / (HEAD + LEAST))),
-    small = others.slice(0, fit);
+  const all = [...Array(count).keys()];
+  if (large < 0) return all.map(k => [k, room / count - HEAD]);
+  const fit = Math.max(0, Math.floor((room - HEAD - LARGE) / (HEAD + LEAST))),
+    small = all.filter(k => k !== large).slice(0, fit);
   const plots = room - HEAD * (small.length + 1),
     most = small.length ? Math.max(LARGE, plots / 2) : plots;
   return [large, ...small]
@@ -115,21 +117,23 @@ function tellTimes(g, [first, step, count, decimals], [t0, t1], x, y, name) {
 }
 
 /**
- * The width of the numbers next to the panels.
+ * The width of the numbers on the left (axis 0) or on the right (axis 1) of the panels.
  * @param {Context} g
  * @param {Panel[]} panels
+ * @param {number} axis
  */
-function widest(g, panels) {
+function widest(g, panels, axis) {
   g.font = font(11);
-  const widths = panels.flatMap(panel => {
-    const [low, step, count, decimals] = panel.axes[0].scale;
+  const widths = panels.flatMap(({axes}) => {
+    const [low, step, count, decimals] = (axes[axis] ?? axes[0]).scale;
     return [low, low + (count - 1) * step].map(x => g.measureText(number(x, decimals)).width);
   });
   return Math.max(...widths);
 }
 
 /**
- * The legend of the joints, and of the arms if there are several.
+ * The legend of the joints in these panels, and of the arms if there are several. If there are no
+ * joints, the lines of the arms have dashes.
  * @param {number[][]} patterns
  * @param {Panel[]} panels
  * @param {string[]} names
@@ -137,7 +141,7 @@ function widest(g, panels) {
  */
 function entries(patterns, panels, names) {
   const lines = panels.flatMap(panel => panel.lines).filter(({joint}) => joint >= 0),
-    joints = [...new Set(lines.map(({joint}) => joint))].sort((p, q) => p - q);
+    joints = [...new Set(lines.map(({joint}) => joint))];
   return [
     ...joints.map(j => ({
       text: `q${j + 1}`,
@@ -145,11 +149,11 @@ function entries(patterns, panels, names) {
       width: 2.2,
       dash: dashes(patterns, j, 2.2),
     })),
-    ...(names.length > 1 ? names : []).map((text, arm) => ({
+    ...names.map((text, arm) => ({
       text,
       color: colors.ink,
       width: strength(arm),
-      dash: [],
+      dash: joints.length ? [] : dashes(patterns, arm, strength(arm)),
     })),
   ];
 }

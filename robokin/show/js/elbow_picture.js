@@ -29,7 +29,7 @@ import {degrees} from "./turns.js";
 /** @import {Picture} from "./stage.js" */
 
 const WIDE = 420; // px: the labels in a narrower picture are letters without numbers
-const [HORIZON, BEND] = [44, 38]; // px: the radii of the arcs of alpha and gamma
+const [HORIZON, BEND] = [44, 38]; // px: the greatest radii of the arcs of alpha and gamma
 
 /**
  * The places of a triangle on the canvas: the top of the column, joint 2, the point, the corner of
@@ -94,6 +94,13 @@ function placesOf({to, scale}, {arm}, {r, z, elbows}) {
 /** A place on a circle. @type {(centre: Pixel, angle: number, radius: number) => Pixel} */
 const on = ([x, y], angle, radius) => [x + radius * Math.cos(angle), y - radius * Math.sin(angle)];
 
+/**
+ * The radius of the arc of alpha, which ends before the elbow, where gamma is.
+ * @param {ElbowExplorer} data
+ * @param {Places} places
+ */
+const horizon = ({arm}, {scale}) => Math.min(HORIZON, 0.6 * arm.geometry.elbow.upper * scale);
+
 /** A place between two others. @type {(a: Pixel, b: Pixel, share?: number) => Pixel} */
 const along = (a, b, share = 0.5) => [a[0] + share * (b[0] - a[0]), a[1] + share * (b[1] - a[1])];
 
@@ -132,7 +139,7 @@ function drawAbove(g, data, now, places) {
   if (bent) {
     const {alpha, gamma} = bent,
       elbow = elbows[now.elbow];
-    arrow(g, joint2, HORIZON, 0, alpha, jointColor(1));
+    arrow(g, joint2, horizon(data, places), 0, alpha, jointColor(1));
     arrow(g, elbow, BEND, alpha, alpha + gamma, jointColor(2));
   } else {
     spot(g, joint2, 5, jointColor(1), colors.edge, 1.2);
@@ -209,7 +216,7 @@ function labelsOf(data, now, places, wide) {
   const {alpha, gamma} = bent,
     {upper, fore} = arm.geometry.elbow;
   return [
-    label(angle("\u03B1", alpha), on(joint2, 0.3 * alpha, HORIZON), colors.ink),
+    label(angle("\u03B1", alpha), on(joint2, 0.3 * alpha, horizon(data, places)), colors.ink),
     label(angle("\u03B3", gamma), on(elbow, alpha + 0.4 * gamma, BEND), colors.ink),
     ...lines,
     label(length("l2", upper), along(joint2, elbow)),

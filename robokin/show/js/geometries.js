@@ -50,64 +50,67 @@ const opposite = q => (q < 0 || Object.is(q, -0) ? q + Math.PI : q - Math.PI);
 // --- Three joints that place a point: `Elbow` ----------------------------------------------------
 
 /**
- * For each pair of flags (front/back, elbow), null or {q, plane, ahead}, as in Elbow.solve: the
- * joint values and the directions (cosine, sine) of the arm's plane and of the forearm's elevation.
+ * For a pair of flags (front/back, elbow), null or {q, plane, ahead}, as in Elbow.solve: the joint
+ * values and the directions (cosine, sine) of the arm's plane and of the forearm's elevation.
  * @param {ArmOf<ElbowInverse | WristInverse>} arm
  * @param {number[]} place
- * @returns {(?ElbowRow)[]}
+ * @param {number} front
+ * @param {number} flag
+ * @returns {?ElbowRow}
  */
-function elbowRows({geometry: {elbow: e, turns}, tolerances}, [x, y, z]) {
+export function elbowRow({geometry: {elbow: e, turns}, tolerances}, [x, y, z], front, flag) {
   const {ROUNDING, STRAIGHT, FREE} = tolerances,
     {upper, fore, reach, lateral: b} = e;
   const rho2 = x * x + y * y,
     r2 = rho2 - b * b,
     tiny = FREE * reach;
-  if (!(r2 >= -2 * ROUNDING * Math.abs(b) * reach)) return [null, null, null, null];
-  const free = rho2 <= tiny * tiny;
-  return SIGNS.flatMap(front =>
-    SIGNS.map(
-      /** @returns {?ElbowRow} */ flag => {
-        const r = front * Math.sqrt(Math.max(r2, 0));
-        const cos1 = free ? front : (x * r + y * b) / rho2;
-        const sin1 = (free ? 0 : (y * r - x * b) / rho2) + 0;
+  if (!(r2 >= -2 * ROUNDING * Math.abs(b) * reach)) return null;
+  const free = rho2 <= tiny * tiny,
+    r = front * Math.sqrt(Math.max(r2, 0));
+  const cos1 = free ? front : (x * r + y * b) / rho2;
+  const sin1 = (free ? 0 : (y * r - x * b) / rho2) + 0;
 
-        const u = r - e.shoulder_x,
-          w = z - e.shoulder_z;
-        const d2 = u * u + w * w,
-          scale = 2 * upper * fore;
-        let unfolded = (d2 - (upper - fore) * (upper - fore)) / scale;
-        let unstretched = ((upper + fore) * (upper + fore) - d2) / scale;
-        const innermost = (2 * Math.abs(upper - fore) * reach) / scale;
-        const outermost = (2 * (upper + fore) * reach) / scale;
-        if (!(unfolded >= -ROUNDING * innermost && unstretched >= -ROUNDING * outermost))
-          return null;
-        if (unstretched <= STRAIGHT * outermost) unstretched = 0;
-        if (unfolded <= STRAIGHT * innermost) unfolded = 0;
-        const cosG = unfolded - 1,
-          sinG = e.sign3 * flag * Math.sqrt(unfolded * unstretched);
-        const along = upper - fore + fore * unfolded,
-          across = fore * sinG;
-        const c = along * u + across * w,
-          s = along * w - across * u,
-          length = Math.sqrt(c * c + s * s);
-        // joint 2 is free if the links have equal lengths and are folded
-        const [cosA, sinA] = length === 0 ? [1, s] : [c / length, s / length];
+  const u = r - e.shoulder_x,
+    w = z - e.shoulder_z;
+  const d2 = u * u + w * w,
+    scale = 2 * upper * fore;
+  let unfolded = (d2 - (upper - fore) * (upper - fore)) / scale;
+  let unstretched = ((upper + fore) * (upper + fore) - d2) / scale;
+  const innermost = (2 * Math.abs(upper - fore) * reach) / scale;
+  const outermost = (2 * (upper + fore) * reach) / scale;
+  if (!(unfolded >= -ROUNDING * innermost && unstretched >= -ROUNDING * outermost)) return null;
+  if (unstretched <= STRAIGHT * outermost) unstretched = 0;
+  if (unfolded <= STRAIGHT * innermost) unfolded = 0;
+  const cosG = unfolded - 1,
+    sinG = e.sign3 * flag * Math.sqrt(unfolded * unstretched);
+  const along = upper - fore + fore * unfolded,
+    across = fore * sinG;
+  const c = along * u + across * w,
+    s = along * w - across * u,
+    length = Math.sqrt(c * c + s * s);
+  // joint 2 is free if the links have equal lengths and are folded
+  const [cosA, sinA] = length === 0 ? [1, s] : [c / length, s / length];
 
-        const [cos2, sin2] = onward([cosA, sinA], turns.upper);
-        const [cos3, sin3] = onward([cosG, sinG], turns.fore);
-        return {
-          q: [
-            Math.atan2(e.sign1 * sin1, cos1),
-            Math.atan2(e.sign2 * sin2, cos2),
-            Math.atan2(e.sign3 * sin3, cos3),
-          ],
-          plane: [cos1, sin1],
-          ahead: [cosA * cosG - sinA * sinG, sinA * cosG + cosA * sinG],
-        };
-      },
-    ),
-  );
+  const [cos2, sin2] = onward([cosA, sinA], turns.upper);
+  const [cos3, sin3] = onward([cosG, sinG], turns.fore);
+  return {
+    q: [
+      Math.atan2(e.sign1 * sin1, cos1),
+      Math.atan2(e.sign2 * sin2, cos2),
+      Math.atan2(e.sign3 * sin3, cos3),
+    ],
+    plane: [cos1, sin1],
+    ahead: [cosA * cosG - sinA * sinG, sinA * cosG + cosA * sinG],
+  };
 }
+
+/**
+ * `elbowRow` for each pair of flags.
+ * @param {ArmOf<ElbowInverse | WristInverse>} arm
+ * @param {number[]} place
+ */
+const elbowRows = (arm, place) =>
+  SIGNS.flatMap(front => SIGNS.map(flag => elbowRow(arm, place, front, flag)));
 
 /**
  * @param {ElbowData} e

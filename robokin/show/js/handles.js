@@ -79,8 +79,11 @@ export function handleLayer(canvas, camera, hold, changed) {
       handles = next.map(handle => ({...handle, node: button(handle, hand), shift: [0, 0]}));
       layer.replaceChildren(...handles.map(handle => handle.node));
     },
-    /** Whether handle k is shown. @param {number} k */
-    shows: k => !handles[k].node.hidden,
+    /** For one drawing: a function that returns whether there is room for handle k. */
+    shown() {
+      chooser.update(canvas.clientWidth);
+      return (/** @type {number} */ k) => !!chooser.stands(handles[k].group ?? "");
+    },
     /**
      * Moves the handles to their places; call it after every redraw.
      * @param {Camera} [cam]
@@ -151,6 +154,11 @@ function button(handle, {camera, hold, changed}) {
   node.addEventListener("click", event => {
     if (tapped || !event.detail) handle.tap?.();
   });
+  node.addEventListener("dblclick", () => {
+    if (handle.tap) return; // two taps
+    handle.home();
+    changed();
+  });
   node.addEventListener("keydown", event => {
     const way = STEPS[event.key];
     if (event.key === "Home") handle.home();
@@ -180,7 +188,7 @@ function placed(handle, camera, taken, [width, height], big) {
   /** @type {(place: Pixel) => Pixel} */
   const inside = ([x, y]) => [
     Math.min(Math.max(x, half), width - half),
-    Math.min(Math.max(y, half), height - half),
+    Math.min(Math.max(y, half), height - half - SCALE),
   ];
   node.hidden = !p.every(Number.isFinite);
   /** @type {Pixel} */
@@ -197,6 +205,7 @@ function placed(handle, camera, taken, [width, height], big) {
   return /** @type {Pixel} */ ([x, y]);
 }
 
+const SCALE = 20; // px: the scale of the grid stands below all handles
 const TAP = 4; // px: a pointer movement shorter than this counts as a tap
 /** @type {Object<string, [number, number]>} */
 const STEPS = {ArrowLeft: [-1, 0], ArrowRight: [1, 0], ArrowUp: [0, 1], ArrowDown: [0, -1]};

@@ -1,6 +1,7 @@
 // The joint explorer: the reader drags joints. All text and the arm data come from Python (page.py:
 // JointPage).
 
+import {AXIS} from "./arm_picture.js";
 import {distance_from_singularity} from "./dexterity.js";
 import {fk, origin, plus, quaternion, turned} from "./kinematics.js";
 import {singularities} from "./geometries.js";
@@ -11,7 +12,7 @@ import {copyButton} from "./copy.js";
 import {element, waiting} from "./elements.js";
 import {ellipsoidMenu} from "./ellipsoid_menu.js";
 import {alongCurve} from "./handles.js";
-import {drawRings, ringAt, ringsOf} from "./joint_ring.js";
+import {around, drawRings, ringAt, ringsOf} from "./joint_ring.js";
 import {slider, stageOf, tick} from "./stage.js";
 import {table} from "./table.js";
 import {degrees, inUnits, rollPitchYaw} from "./turns.js";
@@ -44,6 +45,7 @@ function jointExplorer(stage, data) {
   const {arm, words, units} = data,
     state = {q: [...data.q]},
     rings = ringsOf(arm.chain, arm.reach),
+    long = AXIS * stage.scene.size,
     sizes = units.map(unit => unit.size);
   const sliders = data.controls.map((spec, j) =>
     slider(spec, value => {
@@ -56,6 +58,8 @@ function jointExplorer(stage, data) {
     [],
     data.rows.map(row => row.heads.length),
   );
+  const now = element("span", {class: "rk-count"});
+  stage.title.append(now); // above the picture, so that it can be read while a ring is dragged
   const more = ellipsoidMenu(data, stage.changed),
     axes = tick(words.axes, stage.changed, true),
     copy = copyButton(words, () => fill(data.code, {q: inUnits(units, state.q)}));
@@ -73,7 +77,9 @@ function jointExplorer(stage, data) {
     const {q} = state,
       {ellipsoid, speeds} = more.at(q);
     sliders.forEach((s, j) => s.set(q[j] / sizes[j]));
-    numbers.set(cells(data, q));
+    const told = cells(data, q);
+    numbers.set(told);
+    now.textContent = `${data.rows[0].name}: ${told[0].join(", ")}`;
     if (data.wrist) stage.scene.things = [point(words.wrist, wristCentre(arm, q, data.wrist))];
     if (data.singular) stage.say(singular(data, q) + speeds);
     return [
@@ -83,7 +89,8 @@ function jointExplorer(stage, data) {
         q,
         framed: true,
         glass: data.wrist !== null,
-        over: (g, camera) => drawRings(g, camera, arm.chain, rings, q, stage.handles.shows),
+        around: camera => around(camera, arm.chain, rings, q, stage.handles.shown(), long),
+        over: (g, camera) => drawRings(g, camera, arm.chain, rings, q, stage.handles.shown()),
         axes: axes.on(),
         ellipsoid,
       },

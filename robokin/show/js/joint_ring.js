@@ -2,7 +2,7 @@
 
 import {clear, jointColor, stroke} from "./canvas.js";
 import {reachOf, squareTo} from "./handles.js";
-import {IDENTITY, cross, dot, frames, origin, plus, turned} from "./kinematics.js";
+import {IDENTITY, cross, dot, fk, frames, origin, plus, turned} from "./kinematics.js";
 
 /** @import {PageLink} from "./page.js" */
 /** @import {Camera} from "./camera.js" */
@@ -107,6 +107,37 @@ export function ringAt(chain, rings, q, i, camera) {
 }
 
 /**
+ * Points of a ring, the first also as the last.
+ * @param {ReturnType<typeof ringAt>} ring
+ * @param {number} count
+ */
+function circle({centre, grip, axis}, count) {
+  const spoke = plus(grip, centre, -1),
+    across = cross(axis, spoke);
+  return Array.from({length: count + 1}, (_, k) => (2 * Math.PI * k) / count).map(t =>
+    plus(plus(centre, spoke, Math.cos(t)), across, Math.sin(t)),
+  );
+}
+
+/**
+ * The points that must be inside the picture: points on the rings whose handles are shown, and the
+ * ends of the axes of the flange's frame.
+ * @param {Camera} camera
+ * @param {PageLink[]} chain
+ * @param {Ring[]} rings
+ * @param {number[]} q
+ * @param {(joint: number) => boolean} shows
+ * @param {number} long  the length of the flange's axes
+ */
+export function around(camera, chain, rings, q, shows, long) {
+  const flange = fk(chain, q);
+  return [
+    ...rings.flatMap((_, i) => (shows(i) ? circle(ringAt(chain, rings, q, i, camera), 8) : [])),
+    ...[0, 1, 2].map(k => plus(origin(flange), [flange[k], flange[4 + k], flange[8 + k]], long)),
+  ];
+}
+
+/**
  * Draws the rings whose handles are shown, each with the line from its centre to its handle.
  * @param {Context} g
  * @param {Camera} camera
@@ -118,14 +149,10 @@ export function ringAt(chain, rings, q, i, camera) {
 export function drawRings(g, camera, chain, rings, q, shows) {
   rings.forEach((_, i) => {
     if (!shows(i)) return;
-    const {centre, grip, axis} = ringAt(chain, rings, q, i, camera),
+    const ring = ringAt(chain, rings, q, i, camera),
+      {centre, grip} = ring,
       color = clear(jointColor(i), 0.7);
-    const spoke = plus(grip, centre, -1),
-      across = cross(axis, spoke);
-    const circle = Array.from({length: 49}, (_, k) => (k * Math.PI) / 24).map(t =>
-      camera.to(plus(plus(centre, spoke, Math.cos(t)), across, Math.sin(t))),
-    );
-    if (!chain[i].prismatic) stroke(g, circle, color, 1.6);
+    if (!chain[i].prismatic) stroke(g, circle(ring, 48).map(camera.to), color, 1.6);
     stroke(g, [camera.to(centre), camera.to(grip)], color, 1.2);
   });
 }

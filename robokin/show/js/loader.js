@@ -6,8 +6,22 @@
 
 /** @type {Map<string, Promise<unknown>>} */
 const scripts = (Object(globalThis).robokinScripts ??= new Map());
-/** @type {{last: Promise<unknown>}} Resolves after the latest view has started. */
+const MARGIN = {scrollMargin: "50%"}; // of the page, too: a rootMargin would be added to it
+/**
+ * What all views of the page share: `last` resolves after the latest view has started, `tell` are
+ * the callbacks of placeholders, and `seen` calls them, in the order of the page.
+ * @type {{
+ *   last: Promise<unknown>,
+ *   tell: WeakMap<Element, (close: boolean) => void>,
+ *   seen: IntersectionObserver,
+ * }}
+ */
 const turn = (Object(globalThis).robokinTurn ??= {last: Promise.resolve()});
+turn.tell ??= new WeakMap(); // the loader of an older notebook in the same window makes only `last`
+turn.seen ??= new IntersectionObserver(
+  entries => entries.forEach(entry => turn.tell.get(entry.target)?.(entry.isIntersecting)),
+  MARGIN,
+);
 
 /**
  * @template T
@@ -18,14 +32,20 @@ const turn = (Object(globalThis).robokinTurn ??= {last: Promise.resolve()});
  */
 export function start(id, key, deflated, show) {
   const nonce = document.currentScript?.nonce ?? "";
-  near(id)
-    .then(() => {
-      const script = scripts.get(key) ?? inflated(deflated).then(text => run(text, nonce));
-      scripts.set(key, script);
-      return script;
-    })
-    .then(module => inTurn(() => show(/** @type {T} */ (module))))
-    .catch(error => explain(id, error));
+  const begin = () =>
+    near(id)
+      .then(() => {
+        const script = scripts.get(key) ?? inflated(deflated).then(text => run(text, nonce));
+        scripts.set(key, script);
+        return inTurn(async () => {
+          const module = /** @type {T} */ (await script);
+          // the views above may have grown and moved this one away
+          if (await close(id)) show(module);
+          else begin();
+        });
+      })
+      .catch(error => explain(id, error));
+  begin();
 }
 
 /**
@@ -41,26 +61,44 @@ function inTurn(act) {
   return done;
 }
 
+/** The placeholders of a view that has not started. @param {string} id */
+const placesOf = id => document.querySelectorAll(`[data-player="${id}"]:not([data-ready])`);
+
 /**
  * Waits until one of the placeholders of a view is at most half the height of the window away. A
- * long page would be busy for seconds if all its views started together.
+ * long page would be busy for seconds if all its views started together. If the page contains the
+ * same view twice, only the later call returns; its `show` starts both.
  * @param {string} id
  * @returns {Promise<void>}
  */
-function near(id) {
-  return new Promise(resolve => {
-    const seen = new IntersectionObserver(
-      entries => {
-        if (!entries.some(entry => entry.isIntersecting)) return;
-        seen.disconnect();
+const near = id =>
+  new Promise(resolve => {
+    const places = placesOf(id);
+    for (const place of places) {
+      turn.tell.set(place, here => {
+        if (!here) return;
+        for (const each of places) turn.seen.unobserve(each);
         resolve();
-      },
-      {scrollMargin: "50%"}, // of the page, too: a rootMargin would be added to it
-    );
-    for (const place of document.querySelectorAll(`[data-player="${id}"]:not([data-ready])`))
-      seen.observe(place);
+      });
+      turn.seen.observe(place);
+    }
   });
-}
+
+/**
+ * Whether one of the placeholders of a view is that close now.
+ * @param {string} id
+ * @returns {Promise<boolean>}
+ */
+const close = id =>
+  new Promise(resolve => {
+    const places = placesOf(id);
+    const seen = new IntersectionObserver(entries => {
+      seen.disconnect();
+      resolve(entries.some(entry => entry.isIntersecting));
+    }, MARGIN);
+    for (const place of places) seen.observe(place);
+    if (!places.length) resolve(false);
+  });
 
 /** @param {string} deflated */
 async function inflated(deflated) {

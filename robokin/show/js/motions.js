@@ -16,6 +16,8 @@ import {recording, series, thingsAt} from "./recordings.js";
  * @typedef {{i: number, share: number}} Moment
  */
 
+const AFTER = 0.05; // how long the clock runs on after the last change, as a share of all times
+
 /**
  * `choose(value, choice)` returns everything that changes with slider and switch. `things(motion,
  * sample, share)` returns the things that exist at that moment.
@@ -23,12 +25,32 @@ import {recording, series, thingsAt} from "./recordings.js";
  */
 export function motionsOf(data) {
   const {unit, slider, times} = data,
-    values = slider ? slider.values.length : 1;
-  const count = values * (data.switch ? data.switch.values.length : 1);
+    values = slider?.values.length ?? 1;
+  const count = values * (data.switch?.values.length ?? 1);
   const recordings = data.arms.map(arm => recording(arm, count, times.length, data)),
     quantities = data.quantities.map(quantity =>
       quantity.values.map(packed => series(packed, count, times.length, data.nothing)),
     );
+  const things = thingsAt(data.scene.things, data.nothing);
+  /**
+   * When the clock of a motion stops: soon after everything has come to rest.
+   * @param {number} motion
+   */
+  function endOf(motion) {
+    /** @type {(i: number) => string} */
+    const at = i =>
+      JSON.stringify([
+        recordings.map(each => each.q(motion, i)),
+        quantities.map(all => all.map(of => of(motion)[i])),
+        things(motion, i, 0),
+      ]);
+    const last = times.length - 1,
+      rest = at(last);
+    let i = last;
+    while (i > 0 && at(i - 1) === rest) i--;
+    const more = AFTER * (times[last] - times[0]);
+    return i ? Math.min(times[last], times[i] + more) : times[last];
+  }
   return {
     /**
      * @param {number} value
@@ -42,9 +64,9 @@ export function motionsOf(data) {
       data.quantities.forEach((_, k) =>
         panels.push(quantityPanel(data, k, motion, opening, quantities[k])),
       );
-      return {motion, arms, panels};
+      return {motion, arms, panels, end: endOf(motion)};
     },
-    things: thingsAt(data.scene.things, data.nothing),
+    things,
   };
 }
 
@@ -57,7 +79,7 @@ export function motionsOf(data) {
  */
 function armIn(motion, {name, chain, gaps, via, rows}, recorded, samples, unit) {
   const breaks = new Set(gaps[motion]),
-    near = via && via[motion];
+    near = via?.[motion];
   const trace = Array.from({length: samples}, (_, i) => tipOf(chain, recorded.q(motion, i)));
   return {
     name,

@@ -92,15 +92,19 @@ function drawLines({g, left, right}, y, values) {
  * @param {number} sent
  * @param {number} made
  */
-function tellEnds({g, right}, says, y, sent, made) {
+function tellEnds({g, right, top, bottom}, says, y, sent, made) {
   /** @type {[number, number]} */
   const ends = [y(sent), y(made)];
   const close = Math.abs(ends[0] - ends[1]) < 13;
   write(g, says.sent, right + 4, ends[0] + (close ? -2 : 4), colors.soft, 11);
   write(g, says.made, right + 4, ends[1] + (close ? 11 : 4), colors.accent, 11);
   const lost = Math.round(Math.abs(sent - made));
-  if (!lost) return;
-  upright(g, right - 6, ...ends, colors.alarm, 1.6);
-  const middle = (ends[0] + ends[1]) / 2 + 4;
-  write(g, fill(says.gap, {lost}), right - 10, middle, colors.alarm, 12, "right", "600");
+  if (lost) upright(g, right - 6, ...ends, colors.alarm, 1.6);
+  // if there is no room between the ends, below or above both
+  const under = ends[0] < (top + bottom) / 2,
+    free = under ? Math.max(...ends) + 18 : Math.min(...ends) - 12,
+    wide = Math.abs(ends[0] - ends[1]) > 24,
+    at = wide ? (ends[0] + ends[1]) / 2 + 4 : free,
+    color = lost ? colors.alarm : colors.soft;
+  write(g, fill(says.gap, {lost}), right - 10, at, color, 12, "right", "600");
 }

@@ -121,7 +121,7 @@ function drawStator({g, at}, size, bench) {
       color = now > 0 ? colors.joint5 : now < 0 ? colors.joint6 : colors.paper,
       mark = now > 0 ? "+" : now < 0 ? "\u2212" : "";
     polygon(g, block(0.7, 0.62, 0.62, 0.92), colors.foot, ...rim);
-    polygon(g, block(1.15, 0.69, 1, 0.87), color, colors.ink, now ? 1.8 : 0.8);
+    polygon(g, block(1.15, 0.66, 1, 0.89), color, colors.ink, now ? 1.8 : 0.8);
     plainWords(g, `${name}${mark}`, at(place, 0.78), now ? colors.edge : colors.soft, !!now);
   }
 }

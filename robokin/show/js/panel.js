@@ -52,13 +52,13 @@ import {lineColor, panelWords, shade} from "./panel_words.js";
  * }} Ground
  */
 
-export const FAINT = 0.28; // opacity of a curve that is not watched
+export const FAINT = 0.4; // opacity of a curve that is not watched
 const SMALL = 60; // px: a lower panel shows only the ends of its scale, and no text
 const INSET = 4; // px between the frame and the outermost ticks, so that no curve lies on the frame
 const PAST = 0.002; // an excess over a limit up to this value is due to rounding
 
 /** The line width for an arm. @type {(arm: number) => number} */
-export const strength = arm => [2.6, 1.4, 0.7][Math.min(arm, 2)];
+export const strength = arm => [2.6, 1.4][arm] ?? 0.8;
 
 /** @type {(patterns: number[][], j: number, width: number) => number[]} */
 export const dashes = (patterns, j, width) => patterns[j % patterns.length].map(x => x * width);
@@ -256,6 +256,7 @@ function curve(ground, line, y) {
   }
   g.lineCap = "butt";
   const color = line.faint ? clear(lineColor(line), FAINT) : lineColor(line);
-  stroke(g, points, color, width, line.joint < 0 ? [] : dashes(patterns, line.joint, width));
+  // a quantity has no joint: its dashes tell the arms apart
+  stroke(g, points, color, width, dashes(patterns, line.joint < 0 ? line.arm : line.joint, width));
   g.lineCap = "round";
 }

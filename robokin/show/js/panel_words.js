@@ -5,6 +5,8 @@ import {colors, font, hit, jointColor, number} from "./canvas.js";
 /** @import {Box, Context} from "./canvas.js" */
 /** @import {Line, Mark, Note, Panel, Place, Sides, Times} from "./panel.js" */
 
+const MOST = 16; // pixels of curves: no text covers so many
+
 /** The colour of a line. @type {(line: Line) => string} */
 export const lineColor = ({joint}) => (joint < 0 ? colors.ink : jointColor(joint));
 
@@ -23,38 +25,69 @@ export const shade = color => `color-mix(in srgb, ${color} 60%, ${colors.ink})`;
 export function panelWords(g, panel, ys, times, x, sides) {
   const where = [...sides, colors.ink].join();
   if (panel.where !== where) {
-    const notes = noted(g, panel.marks, x, sides);
+    const cost = cover(panel, ys, times, x, sides),
+      notes = noted(g, panel.marks, x, sides, cost);
     panel.where = where;
-    panel.words = [...notes, ...limitWords(g, panel, ys, times, x, sides, notes)];
+    panel.words = [...notes, ...limitWords(g, panel, ys, sides, notes, cost)];
   }
   return panel.words ?? [];
 }
 
 /**
- * The text of the marks, in at most three lines.
+ * For a row of text, a function of the left end and the width of the text: how many pixels of
+ * curves it covers, and 20 more for each limit.
+ * @param {Panel} panel
+ * @param {Place[]} ys
+ * @param {Times} times
+ * @param {Place} x
+ * @param {Sides} sides
+ */
+function cover({lines, near}, ys, times, x, [left, right]) {
+  const each = (right - left) / times.length,
+    levels = near.map(([k, side]) => ys[k](lines[k].limits?.[side] ?? NaN));
+  /** @type {(y: number, high: number) => (px: number, w: number) => number} */
+  return (y, high) => {
+    const crossed = 20 * levels.filter(level => level > y && level < y + high).length;
+    /** @type {number[]} */
+    const xs = [];
+    lines.forEach(({values}, i) =>
+      values.forEach((v, sample) => {
+        if (ys[i](v) > y - 1 && ys[i](v) < y + high + 1) xs.push(x(times[sample]));
+      }),
+    );
+    return (px, w) => each * xs.filter(cx => cx > px - 3 && cx < px + w + 3).length + crossed;
+  };
+}
+
+/** @typedef {ReturnType<typeof cover>} Cost */
+
+/**
+ * The text of at most three marks: next to their lines, almost clear of the curves and clear of the
+ * limits. The sentences above the panels tell what has no such place.
  * @param {Context} g
  * @param {Mark[]} marks
  * @param {Place} x
  * @param {Sides} sides
+ * @param {Cost} cost
  */
-function noted(g, marks, x, [left, right, top]) {
+function noted(g, marks, x, [left, right, top, bottom], cost) {
   /** @type {Note[]} */
   const notes = [];
   g.font = font(11, 600);
   for (const {time, text} of marks) {
-    if (!text) continue;
-    const w = g.measureText(text).width;
-    const px = x(time) + w + 12 > right ? Math.max(left + 3, x(time) - 6 - w) : x(time) + 6;
-    const place = [0, 1, 2]
-      .map(k => /** @type {Box} */ ([px, top + 14 * k + 4, w, 12]))
-      .find(
-        place =>
-          !hit(
-            place,
-            notes.map(note => note[1]),
-          ),
-      );
-    if (place) notes.push([text, place, colors.alarm, 11, "600"]);
+    if (!text || notes.length > 2) continue;
+    const w = g.measureText(text).width,
+      taken = notes.map(([, place]) => place);
+    /** @type {?Box} */
+    let best = null;
+    let least = MOST;
+    for (let y = top + 5; y + 11 < bottom; y += 6) {
+      const over = cost(y, 11);
+      for (const px of [Math.min(x(time) + 6, right - w), Math.max(left, x(time) - w - 6)])
+        if (over(px, w) < least && !hit([px, y, w, 11], taken))
+          [best, least] = [[px, y, w, 11], over(px, w)];
+    }
+    if (best) notes.push([text, best, colors.alarm, 11, "600"]);
   }
   return notes;
 }
@@ -65,23 +98,18 @@ function noted(g, marks, x, [left, right, top]) {
  * @param {Context} g
  * @param {Panel} panel
  * @param {Place[]} ys  the height of a value, for each line
- * @param {Times} times
- * @param {Place} x
  * @param {Sides} sides
  * @param {Note[]} notes
+ * @param {Cost} cost
  */
-function limitWords(g, panel, ys, times, x, [left, right, top, bottom], notes) {
+function limitWords(g, panel, ys, [left, right, top, bottom], notes, cost) {
   /** @type {Note[]} */
   const found = [];
-  /** @type {(k: number, side: number) => number} */
-  const limitOf = (k, side) => panel.lines[k].limits?.[side] ?? NaN;
-  const each = (right - left) / times.length,
-    lines = panel.near.map(([k, side]) => ys[k](limitOf(k, side)));
   g.font = font(10);
-  panel.near.forEach(([which, side], k) => {
+  for (const [which, side] of panel.near) {
     const line = panel.lines[which],
-      limit = limitOf(which, side),
-      at = lines[k],
+      limit = line.limits?.[side] ?? NaN,
+      at = ys[which](limit),
       {unit} = panel.axes[line.axis];
     const value = number(limit, +!Number.isInteger(limit)),
       gap = unit[0] === "\u00B0" ? "" : " ";
@@ -90,25 +118,15 @@ function limitWords(g, panel, ys, times, x, [left, right, top, bottom], notes) {
       taken = [...notes, ...found].map(([, place]) => place);
     /** @type {?Box} */
     let best = null;
-    let least = 16; // pixels of curves that the text may cover
+    let least = MOST;
     for (const y of side ? [at - 13, at + 2] : [at + 2, at - 13]) {
       if (y < top + 1 || y + 11 > bottom - 1) continue;
-      const crossed = 20 * lines.filter(line => line > y && line < y + 11).length;
-      /** @type {number[]} */
-      const beside = [];
-      panel.lines.forEach(({values}, i) => {
-        const on = ys[i];
-        values.forEach((v, sample) => {
-          if (on(v) > y - 1 && on(v) < y + 12) beside.push(x(times[sample]));
-        });
-      });
-      for (let px = left + 5; px + w + 5 < right; px += 6) {
-        if (hit([px - 4, y, w + 8, 11], taken)) continue;
-        const cost = each * beside.filter(cx => cx > px - 3 && cx < px + w + 3).length + crossed;
-        if (cost < least) [best, least] = [[px, y, w, 11], cost];
-      }
+      const over = cost(y, 11);
+      for (let px = left + 5; px + w + 5 < right; px += 6)
+        if (over(px, w) < least && !hit([px - 4, y, w + 8, 11], taken))
+          [best, least] = [[px, y, w, 11], over(px, w)];
     }
     if (best && found.length < 3) found.push([text, best, shade(lineColor(line)), 10]);
-  });
+  }
   return found;
 }

@@ -33,7 +33,10 @@ import {lengths} from "./turns.js";
 /** @import {Target} from "./target_explorer.js" */
 
 /** @typedef {Target & {time: number, playing: boolean, chosen: number}} State */
-/** @typedef {Move & ReturnType<typeof pathOf> & ReturnType<typeof pulsesOf>} Way */
+/** @typedef {{text: string, at: Point, color: string}} Named */
+/** @typedef {{motor: number, at: Point}} Turned  where a motor reverses */
+/** @typedef {Move & ReturnType<typeof pathOf> & ReturnType<typeof pulsesOf>} Run */
+/** @typedef {Run & {turned: Turned[]}} Way */
 /**
  * The paths to the goal in the order of the table (null if there is none), the reason why one is
  * missing, and the fraction of the straight line at which it fails.
@@ -76,15 +79,7 @@ function pathsExplorer(stage, data) {
         stage.changed();
       }),
     ),
-    rows = table(
-      data.paths,
-      data.heads,
-      data.heads.slice(1).map(() => 1),
-      k => {
-        state.chosen = k;
-        stage.changed();
-      },
-    ),
+    rows = pathsTable(stage, data, state),
     parts = clockRow();
   stage.title.replaceWith(
     element("div", {class: "rk-head"}, stage.title.cloneNode(true), parts.row),
@@ -100,9 +95,11 @@ function pathsExplorer(stage, data) {
   );
   stage.below.append(rows.node);
   stage.handles.set(targetHandles(stage, state, home, data));
-  state.time = longest() / 5;
+  const opening = longest() / 5; // here the letters of the paths are apart
+  state.time = opening;
 
   stage.run(now => {
+    if (state.playing && state.time === opening) state.time = 0; // the first play is a whole one
     clock.pass(now);
     const found = waysTo(state.place),
       {ways} = found,
@@ -122,6 +119,23 @@ function pathsExplorer(stage, data) {
     return [armOn(data, state, ways, chosen)];
   });
 }
+
+/**
+ * The table of the paths, in which the reader chooses the one that the arm follows.
+ * @param {Stage} stage
+ * @param {PathsExplorer} data
+ * @param {State} state
+ */
+const pathsTable = (stage, {paths, heads}, state) =>
+  table(
+    paths,
+    heads,
+    heads.slice(1).map(() => 1),
+    k => {
+      state.chosen = k;
+      stage.changed();
+    },
+  );
 
 /**
  * Returns a function that maps the goal to the paths there. It caches the last result, which
@@ -152,7 +166,11 @@ export function waysOf(data, goal) {
     return {ways: [null, null, null, null], gap, share: 1};
   }
   /** @type {(move: Move) => Way} */
-  const way = move => ({...move, ...pathOf(data, move, start, goal), ...pulsesOf(move)});
+  const way = move => {
+    const run = {...move, ...pathOf(data, move, start, goal), ...pulsesOf(move)},
+      turned = run.reversals.map(({motor, time}) => ({motor, at: toolAt(data, move, time)}));
+    return {...run, turned};
+  };
   const {a, d} = jointMoves(data, start, goal),
     {q, missing, share} = lineOf(data, start, goal),
     line = q && way(straight(data, q)),
@@ -198,13 +216,19 @@ function armOn(data, {time}, ways, chosen) {
         if (each && k !== chosen)
           spot(g, to(toolAt(data, each, time)), 5, LOOKS[LETTERS[k]][0](), colors.paper, 1.5);
       }),
-    labels: ways.flatMap((each, k) =>
-      each ? [{text: LETTERS[k], at: toolAt(data, each, time), color: LOOKS[LETTERS[k]][0]()}] : [],
-    ),
+    labels: [
+      ...ways.flatMap((each, k) => (each ? [label(k, LETTERS[k], toolAt(data, each, time))] : [])),
+      ...(way?.turned ?? []).map(({motor, at}) =>
+        label(chosen, fill(data.words.one, {motors: String(motor + 1)}), at),
+      ),
+    ],
   };
 }
 
-/** @type {(data: PathsExplorer, way: Way, time: number) => Point} */
+/** A label in the colour of a path. @type {(k: number, text: string, at: Point) => Named} */
+const label = (k, text, at) => ({text, at, color: LOOKS[LETTERS[k]][0]()});
+
+/** @type {(data: PathsExplorer, move: Move, time: number) => Point} */
 const toolAt = (data, way, time) => origin(fk(data.arm.chain, postureAt(data, way, time)));
 
 /**
@@ -214,10 +238,11 @@ const toolAt = (data, way, time) => origin(fk(data.arm.chain, postureAt(data, wa
  * @param {string} letter
  * @param {boolean} bold
  */
-function drawPath(g, {to}, {path, bends}, letter, bold) {
+function drawPath(g, {to}, {path, bends, turned}, letter, bold) {
   const [color, dash] = LOOKS[letter];
   stroke(g, path.map(to), color(), bold ? 3 : 2, dash);
-  if (letter === "a") for (const place of bends) spot(g, to(place), 4.5, colors.paper, color(), 2);
+  const marked = letter === "a" ? bends : turned.map(({at}) => at);
+  for (const place of marked) spot(g, to(place), 4.5, colors.paper, color(), 2);
 }
 
 /**
@@ -250,6 +275,7 @@ const motors = ({reversing}) => reversing.map(j => j + 1).join(", ");
 function told({words}, {ways, gap, share}) {
   const [a, b, c] = ways;
   if (!a) return fill(words.out, {reason: gap});
+  if (!durationOf(a)) return words.near;
   const same = fill(words.same, {time: number(durationOf(a), 2)});
   if (b) return fill(words.fast, {same, slow: number(durationOf(b), 2)});
   if (!c) return fill(words.blocked, {same, share: number(100 * share, 0), reason: gap});

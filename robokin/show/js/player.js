@@ -1,5 +1,6 @@
 // The player: recorded motions of arms in space next to their curves. page.py defines its data.
 
+import {apart} from "./arm_picture.js";
 import {number, replaceStill} from "./canvas.js";
 import {sceneOf, sceneView} from "./scene.js";
 import {curvesView} from "./curves.js";
@@ -36,11 +37,13 @@ function start(root, data) {
     overTime = curvesView(parts.curves, data.dashes);
   const state = {time: data.times[0], value: 0, choice: 0, view: [...scene.view], playing: false};
   const motions = motionsOf(data),
-    names = data.arms.length > 1 ? data.arms.map(arm => arm.name) : [];
+    names = data.arms.length > 1 ? data.arms.map(arm => arm.name) : [],
+    first = hidden(data);
   let shown = motions.choose(0, 0);
 
   function choose() {
     shown = motions.choose(state.value, state.choice);
+    state.time = Math.min(state.time, shown.end);
     tell(parts, data, shown, state.value);
     ask();
   }
@@ -55,19 +58,14 @@ function start(root, data) {
     scene.things = motions.things(shown.motion, moment.i, moment.share);
     clock.tell();
     const room = inSpace.draw(state.view, arms, `t = ${number(state.time, 2)} s`);
-    overTime.draw({panels, large: +parts.watch.value, names}, data.times, data.ticks, state.time);
+    const large = +parts.watch.value;
+    overTime.draw({panels: panels.slice(first), large, names}, data.times, data.ticks, state.time);
     return room;
   }
 
   replaceStill(root, parts.frame, parts.scene, parts.curves);
   const ask = pictures(root, [parts.scene, parts.curves], draw); // also draws the first picture
-  const clock = runningClock(
-    parts,
-    parts.frame,
-    state,
-    () => [data.times[0], data.times[data.times.length - 1]],
-    ask,
-  );
+  const clock = runningClock(parts, parts.frame, state, () => [data.times[0], shown.end], ask);
   const {slider, menu, watch} = parts;
   slider?.addEventListener("input", () => {
     state.value = +slider.value;
@@ -113,7 +111,7 @@ function furniture(data) {
     value: element("span", {class: "rk-value"}),
     menu: menu && choice(menu.label, menu.values),
   };
-  parts.watch.value = String(data.watch.panel);
+  parts.watch.value = String(data.watch.panel - hidden(data));
   parts.row.append(element("label", {}, "watch", parts.watch), folding("numbers", table));
   // the controls are above the pictures, so that the slider and the arm are both visible on a small
   // screen
@@ -122,9 +120,9 @@ function furniture(data) {
   if (slider && parts.slider)
     rows[0].append(element("label", {class: "rk-long"}, slider.label, parts.slider, parts.value));
   if (menu && parts.menu) rows[0].append(element("label", {}, menu.label, parts.menu));
-  const {bases} = data.scene, // arms at the same place need no more width than one arm
-    apart = !!bases && new Set(bases.map(String)).size > 1,
-    size = apart ? " rk-wide" : arms.length > 1 && !bases ? " rk-several" : "";
+  // arms at the same place need no more width than one arm
+  const {scene} = data,
+    size = apart(scene) ? " rk-wide" : arms.length > 1 && !scene.bases ? " rk-several" : "";
   const frame = element(
     "div",
     {class: "rk rk-player", role: "group", "aria-label": data.title},
@@ -136,8 +134,12 @@ function furniture(data) {
   return {...parts, frame};
 }
 
+/** How many panels are hidden: those of the joints, if no joint is watched. @param {Page} data */
+const hidden = ({watch, panels}) => (watch.joints?.length === 0 ? panels.length : 0);
+
 /** The names of the panels. @param {Page} data */
-const labelsOf = ({panels, quantities}) => [...panels, ...quantities].map(({label}) => label);
+const labelsOf = data =>
+  [...data.panels, ...data.quantities].map(({label}) => label).slice(hidden(data));
 
 /**
  * A button that shows and hides a part of the page; in print the part is always shown.
@@ -183,8 +185,7 @@ function sized({scene, curves}, inSpace, count) {
  * @param {Page} data
  */
 function reserve({says}, {arms}) {
-  const motions = arms[0].speed.length;
-  const lines = Array.from({length: motions}, (_, motion) =>
+  const lines = arms[0].speed.map((_, motion) =>
     arms.reduce((n, {via, notes}) => n + +!!via?.[motion] + (notes[motion] || []).length, 0),
   );
   says.style.minHeight = `${1.4 * Math.min(2, Math.max(...lines))}em`;
@@ -221,11 +222,9 @@ function tell(parts, data, {arms, motion}, value) {
 
 /** @type {(times: number[], time: number) => Moment} */
 function momentAt(times, time) {
-  const last = times.length - 1;
-  let i = 0;
-  for (let step = 1 << 10; step; step >>= 1)
-    if (i + step <= last && times[i + step] <= time) i += step;
-  return {i, share: i < last ? (time - times[i]) / (times[i + 1] - times[i]) : 0};
+  const i = times.findLastIndex((t, k) => !k || t <= time);
+  // after the last sample there is no step, and the fraction is NaN
+  return {i, share: (time - times[i]) / (times[i + 1] - times[i]) || 0};
 }
 
 /**
@@ -237,7 +236,7 @@ function armAt(arm, {i, share}) {
   const gap = arm.gaps.has(i);
   let q = arm.q(i, gap ? 0 : share);
   const faded = !q.every(Number.isFinite) || (gap && share > 0 && !arm.places[i + 1]);
-  for (let back = i; !q.every(Number.isFinite) && back >= 0; back--) q = arm.q(back, 0);
+  for (let back = i + 1; !q.every(Number.isFinite) && back--;) q = arm.q(back, 0);
   return {
     ...arm,
     q,

@@ -38,6 +38,8 @@ import {compass} from "./triad.js";
  *   say otherwise
  * @property {Draw} [under]  draws anything else below the arm
  * @property {Draw} [over]  draws anything else above it
+ * @property {(cam: Camera) => Point[]} [around]  points, besides those of the arm, that a growing
+ *   scene must show
  * @property {(cam: Camera) => Box[]} [handles]  the boxes of its handles, which no label covers
  */
 /** @typedef {ReturnType<typeof surroundings>} Space  the fixed surroundings of a scene */
@@ -103,13 +105,15 @@ export function sceneView(canvas, scene) {
     cameras = pictures.map((shown, i) => {
       /** @type {Box} */
       const cell = [(i % columns) * cw, Math.floor(i / columns) * ch, cw, ch];
-      const corners = scene.grows ? [...space.corners, ...reached(scene, shown[0])] : space.corners;
-      const cam = (held && cameras[i]) || camera(view, corners, inside(cell));
+      const box = inside(cell);
+      /** @type {(points: Point[]) => Camera} */
+      const fit = points => camera(view, [...space.corners, ...points], box);
+      const cam = (held && cameras[i]) || fit(scene.grows ? reached(scene, shown[0], fit([])) : []);
       drawCell({g, cam, scene, space}, shown, cell, pictures.length > 1);
       return cam;
     });
-    const grid = +(scene.grid / scene.unit.size).toPrecision(6);
-    const scale = `grid ${grid} ${scene.unit.name}`;
+    const {grid, unit} = scene,
+      scale = `grid ${+(grid / unit.size).toPrecision(6)} ${unit.name}`;
     write(g, scale, 10, h - 8, colors.soft, 12);
     // several arms have their names at the top
     if (pictures.length > 1)
@@ -121,10 +125,10 @@ export function sceneView(canvas, scene) {
   /** @type {(count: number, width: number) => number} */
   function height(count, width) {
     const [columns, rows] = tiled(count, width),
-      [, , w] = inside([0, 0, width / columns, 1000]);
+      [, , w, h] = inside([0, 0, width / columns, 1000]);
     const {to} = camera(scene.view, space.corners, [0, 0, w, 1e6]),
       ys = space.corners.map(p => to(p)[1]);
-    return rows * (Math.max(...ys) - Math.min(...ys) + 1000 - inside([0, 0, w, 1000])[3]);
+    return rows * (Math.max(...ys) - Math.min(...ys) + 1000 - h);
   }
 
   return {
@@ -153,8 +157,8 @@ function arranged(scene, space, count, width, height) {
     most = 0;
   for (let columns = 1; count > 1 && columns <= count; columns++) {
     const rows = Math.ceil(count / columns),
-      box = inside([0, 0, width / columns, height / rows]);
-    const {scale} = camera(scene.view, space.corners, box);
+      box = inside([0, 0, width / columns, height / rows]),
+      {scale} = camera(scene.view, space.corners, box);
     if (scale > most * 1.01) [best, most] = [[columns, rows], scale];
   }
   return best;
@@ -192,15 +196,16 @@ export function surroundings({flat, floor: [low], seen}) {
  * The additional points that a growing scene must show.
  * @param {Scene} scene
  * @param {Shown} arm
+ * @param {Camera} fixed  the camera of the scene as it is before it grows
  */
-function reached(scene, arm) {
-  const all = [arm.q, ...(arm.ghosts || []).map(({q}) => q)].flatMap(q => {
+function reached(scene, arm, fixed) {
+  const all = [arm, ...(arm.ghosts || [])].flatMap(({q}) => {
     /** @type {number[][]} */
     const joints = [];
-    return [...frames(arm.chain, q, joints), ...joints];
+    return [...frames(arm.chain, q, joints), ...joints].map(origin);
   });
-  const things = scene.things.flatMap(thing => KINDS[thing.kind].seen(thing));
-  return [...all.map(origin), ...things].filter(p => p.every(Number.isFinite));
+  for (const thing of scene.things) all.push(...KINDS[thing.kind].seen(thing));
+  return [...all, ...(arm.around?.(fixed) || [])].filter(p => p.every(Number.isFinite));
 }
 
 /**

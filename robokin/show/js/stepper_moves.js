@@ -1,9 +1,9 @@
 // Moves of stepper motors between two points, as in jobs/steppers/moves.py: the motor positions
 // over time, in pulses, and the gripper's path.
 
-import {ik} from "./geometries.js";
+import {elbowRow} from "./geometries.js";
 import {distance, dot, fk, origin, plus, rint, TURN, wrapped} from "./kinematics.js";
-import {clamp, distance2, exists} from "./rows.js";
+import {clamp, distance2, exists, nowhere} from "./rows.js";
 import {radians} from "./turns.js";
 
 /** @import {ElbowInverse, PathsPage} from "./page.js" */
@@ -28,10 +28,11 @@ const SLACK = 1e-9, // positions this close to a whole number of pulses count as
  * @param {Point[]} places
  */
 export function postures({arm, row}, places) {
-  const tiny = arm.tolerances.FREE * arm.geometry.elbow.reach;
+  const tiny = arm.tolerances.FREE * arm.geometry.elbow.reach,
+    [front, flag] = arm.branches[row];
   let before = 0;
   return places.map(place => {
-    const [alpha, gamma, beta] = ik(arm, {place})[row];
+    const [alpha, gamma, beta] = elbowRow(arm, place, front, flag)?.q ?? nowhere(3);
     if (distance2(place[0], place[1]) > tiny && !Number.isNaN(alpha))
       before = wrapped(alpha, before);
     return [before, gamma < -Math.PI / 2 ? gamma + TURN : gamma, Math.abs(beta)];
@@ -134,26 +135,31 @@ export const postureAt = (loader, move, time) => jointValues(loader, positionsAt
 export const durationOf = ({t}) => t[t.length - 1];
 
 /**
- * The number of pulses of a move, and the indices of the motors that reverse. A motor receives a
- * pulse whenever its required position is a whole pulse ahead of its actual one, or behind it.
+ * The number of pulses of a move, the indices of the motors that reverse, and the times at which
+ * they do. A motor receives a pulse whenever its required position is a whole pulse ahead of its
+ * actual one, or behind it.
  * @param {Move} move
  */
-export function pulsesOf({positions}) {
+export function pulsesOf({t, positions}) {
   let sent = 0;
-  const reversing = positions[0].map((first, j) => {
-    let stands = first;
-    const signs = new Set();
-    for (const {[j]: due} of positions) {
+  /** @type {{motor: number, time: number}[]} */
+  const reversals = [];
+  positions[0].forEach((first, j) => {
+    let [stands, way] = [first, 0],
+      far = 0; // where the motor is due farthest in the direction `way`
+    positions.forEach(({[j]: due}, k) => {
+      if (way * (due - positions[far][j]) > 0) far = k;
       const ahead = due - stands,
         steps = Math.sign(ahead) * Math.floor(Math.abs(ahead) + SLACK);
-      if (!steps) continue;
+      if (!steps) return;
       stands += steps;
       sent += Math.abs(steps);
-      signs.add(Math.sign(steps));
-    }
-    return signs.size > 1;
+      if (way * steps < 0) reversals.push({motor: j, time: t[far]});
+      if (way * steps <= 0) far = k;
+      way = Math.sign(steps);
+    });
   });
-  return {sent, reversing: reversing.flatMap((yes, j) => (yes ? [j] : []))};
+  return {sent, reversals, reversing: [...new Set(reversals.map(({motor}) => motor))]};
 }
 
 /**

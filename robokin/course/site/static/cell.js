@@ -2,7 +2,7 @@
 
 import {editor} from "./editor.js";
 import {keep, kept} from "./edits.js";
-import {errorLine, runScripts, shown} from "./outputs.js";
+import {errorLine, runScripts, sameViews, shown} from "./outputs.js";
 
 /** @import {Editor} from "./editor.js" */
 /** @import {Edit} from "./edits.js" */
@@ -164,6 +164,12 @@ export class Cell {
   /** Marks the line of an error; 0 is none. @param {number} line */
   async point(line) {
     if (line || this.editor) (await this.edit(false)).point(line);
+  }
+
+  /** Whether the cell shows the views of these outputs already. @param {Output[]} outputs */
+  shows(outputs) {
+    const now = this.own ?? (this.text === this.data.source ? this.stored : null);
+    return !!now && sameViews(outputs, now);
   }
 
   /**

@@ -23,6 +23,7 @@ import {Views} from "./views.js";
 /** @typedef {{outputs: Output[]}} Result */
 
 const LAST = /^(?:progress|report)\(/m; // the text next to these cells says how to hand in
+const SAME = "Done. The view would be the same, so it stays as you left it.";
 const ABOVE = "A cell above that this one needs ended with an error.";
 
 class Lab {
@@ -114,8 +115,9 @@ class Lab {
       const needs = await this.prepare(cell);
       if (needs) {
         cell.say("Running …");
-        const outputs = await this.execute(cell, true);
-        cell.say(result(outputs) + before(needs));
+        const {outputs, stays} = await this.execute(cell, true);
+        if (stays) cell.say(SAME + before(needs), [["Start again", () => cell.show(outputs)]]);
+        else cell.say(result(outputs) + before(needs));
       }
     } catch (error) {
       if (!(error instanceof Ended)) throw error;
@@ -146,7 +148,7 @@ class Lab {
     for (const [done, each] of needs.entries()) {
       const left = needs.length - done;
       cell.say(`Running ${left} ${left === 1 ? "cell" : "cells"} above …`);
-      if (fine(await this.execute(each, false))) continue;
+      if (fine((await this.execute(each, false)).outputs)) continue;
       cell.say(ABOVE, [["Show it", () => reveal(each)]]);
       return null;
     }
@@ -155,8 +157,9 @@ class Lab {
 
   /**
    * Runs one cell and shows its result. If the cell was run only because another one needs it, and
-   * is unchanged, its stored result stays.
-   * @type {(cell: Cell, asked: boolean) => Promise<Output[]>}
+   * is unchanged, its stored result stays. Views that are there already stay as the reader left
+   * them.
+   * @type {(cell: Cell, asked: boolean) => Promise<{outputs: Output[], stays: boolean}>}
    */
   async execute(cell, asked) {
     let outputs;
@@ -168,9 +171,10 @@ class Lab {
       throw error;
     }
     cell.failed = !fine(outputs);
-    if (asked || cell.failed || cell.text !== cell.data.source) cell.show(outputs);
+    const stays = cell.shows(outputs);
+    if (!stays && (asked || cell.failed || cell.text !== cell.data.source)) cell.show(outputs);
     this.views.learn(outputs);
-    return outputs;
+    return {outputs, stays};
   }
 
   /** Says why a cell has no result. @type {(cell: Cell, why: Ended) => void} */

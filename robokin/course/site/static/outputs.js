@@ -31,6 +31,22 @@ export function shown(outputs, stored) {
   return made;
 }
 
+const VIEW = /^<div class="robokin-player" data-player="([0-9a-f]{12})">/;
+
+/**
+ * Whether these outputs are the views that an element shows, and nothing else. The id of a view is
+ * a hash of its data.
+ * @param {Output[]} outputs
+ * @param {Element} place
+ */
+export function sameViews(outputs, place) {
+  const ids = outputs.map(each => "data" in each && VIEW.exec(each.data["text/html"] ?? "")?.[1]),
+    there = [...place.querySelectorAll("[data-player]")].map(each =>
+      each.getAttribute("data-player"),
+    );
+  return ids.length > 0 && ids.every(Boolean) && String(ids) === String(there);
+}
+
 /** The line of its cell in which Python stopped with an error, or 0. @param {Output[]} outputs */
 export function errorLine(outputs) {
   const [trace] = outputs.flatMap(each => ("traceback" in each ? [each.traceback] : []));
