@@ -43,15 +43,20 @@ def page(browser):
     said = []
     page.on("pageerror", lambda error: said.append(str(error)))
     page.on("console", lambda m: said.append(m.text) if m.type in ("error", "warning") else None)
-    # record the frames of panels and the text on the canvases
+    # record the frames of panels and the text of each canvas's newest picture: the page may draw
+    # twice after a resize, because a scroll bar then changes the width
     page.add_init_script("""
-        window.frames_ = []; window.written = [];
-        const {strokeRect, fillText} = CanvasRenderingContext2D.prototype;
+        window.drawn = new Map();
+        const {clearRect, strokeRect, fillText} = CanvasRenderingContext2D.prototype;
+        CanvasRenderingContext2D.prototype.clearRect = function (...box) {
+          drawn.set(this.canvas, {frames: [], words: []});
+          return clearRect.apply(this, box); };
         CanvasRenderingContext2D.prototype.strokeRect = function (...box) {
-          if (this.canvas.className === "rk-curves") frames_.push(box);
+          drawn.get(this.canvas)?.frames.push(box);
           return strokeRect.apply(this, box); };
         CanvasRenderingContext2D.prototype.fillText = function (text, ...place) {
-          written.push(text); return fillText.call(this, text, ...place); };""")
+          drawn.get(this.canvas)?.words.push(text);
+          return fillText.call(this, text, ...place); };""")
     yield page
     page.close()
     assert said == []
@@ -67,10 +72,14 @@ def opened(page, view, tmp_path, curves=True):
 
 def anew(page):
     """The frames of the panels and the text of one new picture."""
-    page.evaluate("frames_.length = written.length = 0")
+    page.evaluate("drawn.clear()")
     page.set_viewport_size({"width": 1827 - page.viewport_size["width"], "height": 647})
     ink(page, ".rk-curves")
-    return page.evaluate("[frames_, written]")
+    return page.evaluate("""() => {
+      const pictures = [...drawn].filter(([canvas]) => canvas.isConnected);
+      const curves = pictures.filter(([canvas]) => canvas.className === "rk-curves");
+      return [curves.flatMap(([, picture]) => picture.frames),
+              pictures.flatMap(([, picture]) => picture.words)]; }""")
 
 
 # --- Room on the screen ---------------------------------------------------------------------------
