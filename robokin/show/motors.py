@@ -69,10 +69,10 @@ WORDS = {
     "startFrequency": "maximum start frequency",
     "commutation": "maximum commutation frequency",
     "degrees": "{value}°",
-    "torques": "{value} mN m",
-    "perSecond": "{value} pulses/s",
-    "none": "none: not even {value} pulses/s",
-    "orMore": "{value} pulses/s or more",
+    "torques": "{value}\u00a0mN\u00a0m",
+    "perSecond": "{value}\u00a0pulses/s",
+    "none": "none: not even {value}\u00a0pulses/s",
+    "orMore": "{value}\u00a0pulses/s or more",
 }
 MEANT = (
     "Take hold of the ring on the rotor, turn it away, and let it go. Click a row of the table to "

@@ -18,7 +18,7 @@ import {triad} from "./triad.js";
  */
 
 /** The length of the axes of the flange's frame, as a fraction of the scene's size. */
-export const AXIS = 0.13;
+export const TRIAD = 0.13;
 
 /**
  * Prepares an arm for drawing. The result contains a pen in the coordinates of the arm's base, the
@@ -125,7 +125,7 @@ export function drawFlange({g, cam, scene, faded, all, exists}) {
   if (!exists) return [];
   g.globalAlpha = faded ? 0.4 : 1;
   const flange = all[all.length - 1];
-  const letters = apart(scene) ? [] : triad(g, cam, flange, AXIS * scene.size, 3, 1);
+  const letters = apart(scene) ? [] : triad(g, cam, flange, TRIAD * scene.size, 3, 1);
   spot(g, cam.to(origin(flange)), 3.6, colors.hub, colors.path, 1.8);
   g.globalAlpha = 1;
   return letters;

@@ -11,15 +11,10 @@ import {record} from "./recorded.js";
 /** @import {MotionPage, PagePose} from "./page.js" */
 /** @import {Point} from "./canvas.js" */
 /** @import {Asked, State} from "./motion_parts.js" */
+/** @import {Quantity} from "./peaks.js" */
 
 /** @typedef {ReturnType<typeof motionOf>} Motion */
 /** @typedef {{place: Point, text: string}} Near  the nearest point to via, and its distance */
-/**
- * The greatest speeds and accelerations of a motion. If `sure`, they include those between the
- * samples.
- * @typedef {{sure: boolean, values: number[][]}} Tops
- */
-
 const LAWS = {quintic, trapezoidal, linear};
 
 /**
@@ -65,13 +60,14 @@ export function motionOf(data, state) {
 }
 
 /**
- * The greatest speeds and accelerations, including those between the samples. The result is null if
- * the motion is broken or passes a singularity, or if the search for one of them does not converge.
+ * The greatest values of some quantities, including those between the samples. The result is null
+ * if the motion is broken or passes a singularity, or if the search for one of them does not
+ * converge.
  * @param {MotionPage} data
  * @param {Motion} motion
- * @param {number[][]} sampled
+ * @param {Quantity[]} quantities
  */
-export function topsOf({arm, units, samples}, {t, q, missing, gaps, poseAt, times}, sampled) {
+export function topsOf({arm, samples}, {t, q, missing, gaps, poseAt, times}, quantities) {
   if (gaps.size || missing[0]) return null;
   const step = t[1];
   // the posture; NaN at a singularity, where free joints may have any value
@@ -81,12 +77,7 @@ export function topsOf({arm, units, samples}, {t, q, missing, gaps, poseAt, time
       row = onward(arm, ik(arm, poseAt(x)), near);
     return Object.values(singularities(arm, row)).some(Boolean) ? row.map(() => NaN) : row;
   };
-  return peaks(
-    posture,
-    times,
-    units.map(({size}) => size),
-    sampled,
-  );
+  return peaks(posture, times, quantities);
 }
 
 /**
@@ -101,31 +92,32 @@ export const most = (rows, j) =>
 
 /**
  * `now()` returns the motion for the current settings, and computes it again if they have changed.
- * `tops(held)` returns its greatest speeds and accelerations.
+ * `searched(held)` returns what `search` finds in it. The search takes long, so it runs once for
+ * each motion and not while a handle is held: until then the result is null.
+ * @template Found
  * @param {MotionPage} data
  * @param {State} state
+ * @param {(motion: Motion) => ?Found} search
  */
-export function motions(data, state) {
+export function motions(data, state, search) {
   let known = "";
   /** @type {?Motion} */
   let found = null;
-  /** @type {?number[][]} */
-  let refined = null;
+  /** @type {?Found | undefined} */
+  let result;
   const now = () => {
     const {time, playing, ...asked} = state, // the clock alone does not change the motion
       key = JSON.stringify(asked);
-    if (!found || key !== known) [known, found, refined] = [key, motionOf(data, state), null];
+    if (!found || key !== known) [known, found, result] = [key, motionOf(data, state), undefined];
     return found;
   };
   return {
     now,
-    /** @type {(held: boolean) => Tops} */
-    tops(held) {
-      const motion = now(),
-        {v, a} = motion,
-        sampled = [v, a].map(rows => data.units.map(({size}, j) => most(rows, j) / size));
-      if (!held) refined ??= topsOf(data, motion, sampled);
-      return {sure: refined !== null, values: refined ?? sampled};
+    /** @param {boolean} held */
+    searched(held) {
+      const motion = now();
+      if (result === undefined && !held) result = search(motion);
+      return result ?? null;
     },
   };
 }

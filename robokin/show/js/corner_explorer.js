@@ -3,7 +3,7 @@
 // arm and its joint accelerations are shown beside it.
 
 import {fill} from "./blanks.js";
-import {motionOf} from "./blended.js";
+import {most, topsOf} from "./blended.js";
 import {number} from "./canvas.js";
 import {orbit, sceneCanvas} from "./controls.js";
 import {cornerOf, cornerPicture, offset} from "./corner_picture.js";
@@ -17,11 +17,13 @@ import {frameOf} from "./stage.js";
 import {scale} from "./ticks.js";
 
 /** @import {MotionPage} from "./page.js" */
-/** @import {Motion, Tops} from "./blended.js" */
+/** @import {Motion} from "./blended.js" */
 /** @import {CornerAt} from "./corner_picture.js" */
 /** @import {Handle} from "./handles.js" */
 /** @import {Drawn, State} from "./motion_parts.js" */
 /** @import {Shown} from "./scene.js" */
+
+/** @typedef {{joint: number, value: number}} Hardest  a joint and its acceleration in its unit */
 
 const ORDER = 2; // the order of the derivative that the panel shows: accelerations
 
@@ -33,13 +35,14 @@ export function cornerExplorer(root, data) {
   const corner = cornerOf(data),
     canvas = element("canvas", {class: "rk-scene rk-flat", role: "img"}),
     told = toldBeside(canvas, data.words);
+  /** @type {() => ReturnType<CornerAt["seen"]>} */
   const seen = () => corner.seen(state.blend, data.corners[state.corner]),
     stage = frameOf(
       root,
       data,
       cornerPicture(canvas, data, corner, seen, cam => ring.at(cam)),
     ),
-    parts = motionParts(stage, data),
+    parts = motionParts(stage, data, found => hardest(data, found)),
     {state, clock, motion} = parts,
     ring = ringOf(data, state, corner, () => motion.now().near?.text ?? ""),
     small = armPicture(data, stage.ask);
@@ -52,30 +55,24 @@ export function cornerExplorer(root, data) {
   );
   stage.handles.set([ring]);
   state.time = state.duration / 2; // the tool is at the corner
-  const opening = motionOf(data, state);
+  const {a: rows, gaps} = motion.now(); // the opening motion
   /** @type {?{drawn: Drawn, arms: Shown[]}} */
   let shown = null;
   stage.run(
     now => {
       clock.pass(now);
       const found = motion.now(),
-        tops = motion.tops(parts.held()),
-        worst = hardest(data, found, tops),
+        sure = motion.searched(parts.held()),
+        worst = sure ?? sampledHardest(data, found),
         arms = [{...armAt(data, found, parts.sample()), near: found.near}];
       parts.inputs.tell();
       clock.tell();
       stage.say(notes(data, {...found, jumps: []}).join(" "));
-      told.tell(sentences(data, found, tops, worst));
-      const before = state.duration === data.start_values.duration ? opening : null,
-        panel = panelOf(
-          data,
-          found,
-          found.a,
-          ORDER,
-          parts.sample(),
-          before && {rows: before.a, gaps: before.gaps},
-        );
-      for (const line of panel.lines) line.faint = worst.length > 0 && !worst.includes(line.joint);
+      told.tell(sentences(data, found, worst, sure !== null));
+      const before = state.duration === data.start_values.duration ? {rows, gaps} : null,
+        panel = panelOf(data, found, found.a, ORDER, parts.sample(), before);
+      for (const line of panel.lines)
+        line.faint = worst.length > 0 && !worst.some(({joint}) => joint === line.joint);
       const curves = {panels: [panel], large: 0, names: []};
       shown = {drawn: [curves, found.t, scale(0, state.duration), state.time], arms};
       return arms;
@@ -168,22 +165,48 @@ function armPicture(data, ask) {
 
 /**
  * The revolute and the prismatic joint with the greatest accelerations, since angles cannot be
- * compared with lengths; none if the speeds jump.
+ * compared with lengths.
+ * @param {MotionPage} data
+ * @param {number[]} accelerations  without signs; NaN where there are none
+ * @returns {Hardest[]}
+ */
+const hardestOf = ({arm, units}, accelerations) =>
+  [false, true].flatMap(slides => {
+    let best = {joint: -1, value: -Infinity};
+    for (const [joint, x] of accelerations.entries()) {
+      const value = x / units[joint].size;
+      if (arm.prismatic[joint] === slides && value > best.value) best = {joint, value};
+    }
+    return best.joint < 0 ? [] : best;
+  });
+
+/**
+ * These joints at the samples; none if the speeds jump.
  * @param {MotionPage} data
  * @param {Motion} motion
- * @param {Tops} tops
  */
-function hardest({arm}, {jumps}, {values: [, accelerations]}) {
-  if (jumps.length) return [];
-  return [false, true]
-    .map(slides =>
-      accelerations.reduce(
-        (best, x, j) =>
-          arm.prismatic[j] === slides && x > (accelerations[best] ?? -Infinity) ? j : best,
-        -1,
-      ),
-    )
-    .filter(j => j >= 0);
+const sampledHardest = (data, {a, jumps}) =>
+  jumps.length
+    ? []
+    : hardestOf(
+        data,
+        data.units.map((_, j) => most(a, j)),
+      );
+
+/**
+ * These joints, including what is between the samples; null if they are uncertain.
+ * @param {MotionPage} data
+ * @param {Motion} motion
+ */
+function hardest(data, motion) {
+  /** @type {(slopes: number[][]) => Hardest[]} */
+  const at = ([, accelerations]) => hardestOf(data, accelerations.map(Math.abs));
+  const quantities = sampledHardest(data, motion).map(({value: about}, k) => ({
+    of: /** @param {number[][]} slopes */ slopes => at(slopes)[k].value,
+    about,
+  }));
+  const found = topsOf(data, motion, quantities);
+  return found && found.map(({slopes}, k) => at(slopes)[k]);
 }
 
 /**
@@ -191,19 +214,18 @@ function hardest({arm}, {jumps}, {values: [, accelerations]}) {
  * revolute joints, if there are any) and jumps in speed. The numbers of the first two are in bold.
  * @param {MotionPage} data
  * @param {Motion} motion
- * @param {Tops} tops
- * @param {number[]} worst
+ * @param {Hardest[]} worst
+ * @param {boolean} sure
  */
-function sentences({arm, words, units}, {near, jumps}, {sure, values}, worst) {
+function sentences({arm, words, units}, {near, jumps}, worst, sure) {
   /** @type {HTMLElement[]} */
   const said = [];
   if (near) said.push(bold(words.near, "distance", {distance: near.text}));
-  for (const j of worst.slice(0, 1)) {
-    const value = values[1][j],
-      {name} = units[j],
+  for (const {joint, value} of worst.slice(0, 1)) {
+    const {name} = units[joint],
       most = `${number(value, decimalsOf(value))}${name === "°" ? "" : " "}${name}/s²`;
     const sentence = arm.prismatic.includes(true) ? words.hardestOfKind : words.hardest;
-    said.push(bold(sentence, "value", {joint: j + 1, value: sure ? most : `≈ ${most}`}));
+    said.push(bold(sentence, "value", {joint: joint + 1, value: sure ? most : `≈ ${most}`}));
   }
   for (const {time} of jumps)
     said.push(element("span", {class: "rk-alarm"}, fill(words.jump, {time: number(time, 2)})));

@@ -132,16 +132,18 @@ function widest(g, panels, axis) {
 }
 
 /**
- * The legend of the joints in these panels, and of the arms if there are several. If there are no
- * joints, the lines of the arms have dashes.
+ * The legend of the joints in these panels, and of the arms if there are several. The lines of the
+ * arms have dashes if a quantity is drawn for several arms.
  * @param {number[][]} patterns
  * @param {Panel[]} panels
  * @param {string[]} names
  * @returns {Entry[]}
  */
 function entries(patterns, panels, names) {
-  const lines = panels.flatMap(panel => panel.lines).filter(({joint}) => joint >= 0),
-    joints = [...new Set(lines.map(({joint}) => joint))];
+  const all = panels.flatMap(panel => panel.lines),
+    lines = all.filter(({joint}) => joint >= 0),
+    joints = [...new Set(lines.map(({joint}) => joint))],
+    dashed = new Set(all.filter(({joint}) => joint < 0).map(({arm}) => arm)).size > 1;
   return [
     ...joints.map(j => ({
       text: `q${j + 1}`,
@@ -153,7 +155,7 @@ function entries(patterns, panels, names) {
       text,
       color: colors.ink,
       width: strength(arm),
-      dash: joints.length ? [] : dashes(patterns, arm, strength(arm)),
+      dash: dashed ? dashes(patterns, arm, strength(arm)) : [],
     })),
   ];
 }

@@ -188,7 +188,7 @@ function placed(handle, camera, taken, [width, height], big) {
   /** @type {(place: Pixel) => Pixel} */
   const inside = ([x, y]) => [
     Math.min(Math.max(x, half), width - half),
-    Math.min(Math.max(y, half), height - half - SCALE),
+    Math.min(Math.max(y, half), height - half - SCALE_ROOM),
   ];
   node.hidden = !p.every(Number.isFinite);
   /** @type {Pixel} */
@@ -205,7 +205,7 @@ function placed(handle, camera, taken, [width, height], big) {
   return /** @type {Pixel} */ ([x, y]);
 }
 
-const SCALE = 20; // px: the scale of the grid stands below all handles
+const SCALE_ROOM = 20; // px: the scale of the grid stands below all handles
 const TAP = 4; // px: a pointer movement shorter than this counts as a tap
 /** @type {Object<string, [number, number]>} */
 const STEPS = {ArrowLeft: [-1, 0], ArrowRight: [1, 0], ArrowUp: [0, 1], ArrowDown: [0, -1]};

@@ -1,7 +1,7 @@
 // The joint explorer: the reader drags joints. All text and the arm data come from Python (page.py:
 // JointPage).
 
-import {AXIS} from "./arm_picture.js";
+import {TRIAD} from "./arm_picture.js";
 import {distance_from_singularity} from "./dexterity.js";
 import {fk, origin, plus, quaternion, turned} from "./kinematics.js";
 import {singularities} from "./geometries.js";
@@ -45,7 +45,7 @@ function jointExplorer(stage, data) {
   const {arm, words, units} = data,
     state = {q: [...data.q]},
     rings = ringsOf(arm.chain, arm.reach),
-    long = AXIS * stage.scene.size,
+    long = TRIAD * stage.scene.size,
     sizes = units.map(unit => unit.size);
   const sliders = data.controls.map((spec, j) =>
     slider(spec, value => {

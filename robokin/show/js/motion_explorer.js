@@ -2,6 +2,7 @@
 // text and the arm data come from Python (explorer_page.py: MotionPage).
 
 import {fill} from "./blanks.js";
+import {most, topsOf} from "./blended.js";
 import {number} from "./canvas.js";
 import {cornerExplorer} from "./corner_explorer.js";
 import {choice, element, waiting} from "./elements.js";
@@ -16,7 +17,7 @@ import {scale} from "./ticks.js";
 import {frame} from "./target.js";
 
 /** @import {MotionPage, PagePose} from "./page.js" */
-/** @import {Motion, Tops} from "./blended.js" */
+/** @import {Motion} from "./blended.js" */
 /** @import {Drawn} from "./motion_parts.js" */
 /** @import {Stage} from "./stage.js" */
 
@@ -37,7 +38,8 @@ export const explore = (id, data) =>
  */
 function motionExplorer(stage, data) {
   const watch = choice("large panel", data.panels),
-    parts = motionParts(stage, data, element("label", {}, "watch", watch)),
+    watched = element("label", {}, "watch", watch),
+    parts = motionParts(stage, data, found => greatest(data, found), watched),
     {state, canvas, clock, inputs, motion} = parts,
     numbers = numberTable(data);
   stage.below.append(
@@ -60,7 +62,7 @@ function motionExplorer(stage, data) {
       const panels = [q, v, a].map((rows, order) => panelOf(data, found, rows, order, i));
       const ticks = scale(0, state.duration);
       drawn = [{panels, large: +watch.value, names: []}, t, ticks, state.time];
-      numbers.tell(motion.tops(parts.held()), found);
+      numbers.tell(motion.searched(parts.held()), found);
       const passes = near ? [fill(data.words.near, {distance: near.text})] : [];
       stage.say([...passes, ...notes(data, found)].join(" "));
       stage.scene.things = STATIONS.map(name => frame(name, poseOf(state[name])));
@@ -72,10 +74,37 @@ function motionExplorer(stage, data) {
 }
 
 /**
+ * The greatest speeds and accelerations at the samples.
+ * @type {(data: MotionPage, motion: Motion) => number[][]}
+ */
+const sampled = ({units}, {v, a}) =>
+  [v, a].map(rows => units.map(({size}, j) => most(rows, j) / size));
+
+/**
+ * The greatest speeds and accelerations, including those between the samples; null if they are
+ * uncertain.
+ * @param {MotionPage} data
+ * @param {Motion} motion
+ */
+function greatest(data, motion) {
+  const quantities = sampled(data, motion).flatMap((values, order) =>
+    values.map((about, j) => ({
+      of: /** @param {number[][]} slopes */ slopes =>
+        Math.abs(slopes[order][j]) / data.units[j].size,
+      about,
+    })),
+  );
+  const tops = topsOf(data, motion, quantities)?.map(({value}) => value),
+    joints = data.units.length;
+  return tops ? [tops.slice(0, joints), tops.slice(joints)] : null;
+}
+
+/**
  * The table of the greatest speeds and accelerations.
  * @param {MotionPage} data
  */
-function numberTable({arm, words, units, samples}) {
+function numberTable(data) {
+  const {arm, words, units, samples} = data;
   const names = [words.speed, words.acceleration];
   const rows = table(
     names,
@@ -94,16 +123,17 @@ function numberTable({arm, words, units, samples}) {
     node: rows.node,
     /**
      * Where the speed of a joint jumps, it has no finite acceleration.
-     * @param {Tops} tops
+     * @param {?number[][]} tops
      * @param {Motion} motion
      */
-    tell({sure, values}, {jumps}) {
-      const jump = units.map((_, j) => jumps.some(({joints}) => joints[j]));
+    tell(tops, motion) {
+      const {jumps} = motion,
+        jump = units.map((_, j) => jumps.some(({joints}) => joints[j]));
       names.forEach((what, k) => {
-        heads[k].textContent = sure ? what : fill(words.sampled, {what, samples});
+        heads[k].textContent = tops ? what : fill(words.sampled, {what, samples});
       });
       rows.set(
-        values.map((row, order) =>
+        (tops ?? sampled(data, motion)).map((row, order) =>
           row.map((value, j) => cell(order, order > 0 && jump[j] ? NaN : value, j)),
         ),
       );

@@ -32,11 +32,13 @@ const CHOICES = /** @type {const} */ (["law", "corner", "row"]);
 
 /**
  * Puts the clock next to the title and the curves into the column at the side.
+ * @template Found
  * @param {Frame} stage
  * @param {MotionPage} data
+ * @param {(motion: Motion) => ?Found} search
  * @param {...HTMLElement} more  other controls in the row of the clock
  */
-export function motionParts(stage, data, ...more) {
+export function motionParts(stage, data, search, ...more) {
   const {words, start, via, goal} = data;
   /** @type {State} */
   const state = {
@@ -63,7 +65,7 @@ export function motionParts(stage, data, ...more) {
     inputs: inputsOf(stage, data, state),
     copy: copyButton(words, () => inCode(data, state)),
     held: holding(stage),
-    motion: motions(data, state),
+    motion: motions(data, state, search),
     /** The sample that the clock shows. */
     sample: () => Math.round((state.time / state.duration) * (data.samples - 1)),
   };

@@ -26,19 +26,25 @@ export function timeOf(law, duration, s) {
 }
 
 /**
- * The greatest absolute speed and acceleration of each joint in its unit, with two more accurate
- * decimals than `decimalsOf` returns.
+ * A quantity of a motion, and a value of about the same size as its greatest.
+ * @typedef {{of: (slopes: number[][]) => number, about: number}} Quantity  of the speeds and the
+ *   accelerations of all joints
+ */
+
+/**
+ * The greatest value of each quantity, with two more accurate decimals than `decimalsOf` returns,
+ * and the speeds and accelerations of all joints there.
  * @param {(t: number) => number[]} posture  NaN if there is none, or it is uncertain
  * @param {number[]} ends  the ends of the intervals, increasing: an acceleration or a speed may
  *   jump there
- * @param {number[]} sizes  the sizes of the units
- * @param {number[][]} near  speeds and accelerations of about the same size
- * @returns {?number[][]}  speeds, accelerations; null if the search for one of them does not
+ * @param {Quantity[]} quantities
+ * @returns {?{value: number, slopes: number[][]}[]}  null if the search for one of them does not
  *   converge, or a posture is uncertain
  */
-export function peaks(posture, ends, sizes, near) {
-  const last = /** @type {number} */ (ends.at(-1)),
-    best = near.map(values => values.map(() => 0));
+export function peaks(posture, ends, quantities) {
+  const last = /** @type {number} */ (ends.at(-1));
+  /** @type {{value: number, slopes: number[][]}[]} */
+  const best = quantities.map(() => ({value: -Infinity, slopes: []}));
   let sure = true;
   for (const [k, high] of ends.entries()) {
     const low = ends[k - 1];
@@ -47,23 +53,17 @@ export function peaks(posture, ends, sizes, near) {
     /** @type {Map<number, number[][]>} */
     const known = new Map();
     /** @type {(t: number) => number[][]} */
-    const at = t => {
+    const slopesAt = t => {
       const found = known.get(t) || slopes(posture, t, low + 2 * h, high - 2 * h, h);
       known.set(t, found);
       sure &&= !found[0].some(Number.isNaN);
       return found;
     };
-    for (const [order, values] of near.entries())
-      for (const [j, about] of values.entries()) {
-        const {value: top} = refinedMaximum(
-          t => Math.abs(at(t)[order][j]) / sizes[j],
-          low,
-          high,
-          decimalsOf(about),
-        );
-        if (!sure || Number.isNaN(top)) return null;
-        best[order][j] = Math.max(best[order][j], top);
-      }
+    for (const [n, {of, about}] of quantities.entries()) {
+      const {value, at} = refinedMaximum(t => of(slopesAt(t)), low, high, decimalsOf(about));
+      if (!sure || Number.isNaN(value)) return null;
+      if (value > best[n].value) best[n] = {value, slopes: slopesAt(at)};
+    }
   }
   return best;
 }

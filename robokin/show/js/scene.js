@@ -269,7 +269,8 @@ function drawSpace(pen, arms, [x, y, w, h], named) {
   const ofThings = [];
   for (const kind in KINDS) KINDS[kind].above({...pen, near: first.near}, only(kind), ofThings);
   labels.push(...all.flatMap(drawFlange), ...ofThings); // a flange is drawn over its target
-  compass(g, cam, [x + w - 34, y + h - 34]);
+  const handles = all.flatMap(one => one.handles?.(one.cam) ?? []);
+  compass(g, cam, compassAt([x, y, w, h], handles));
   if (named) write(g, first.name, x + 10, y + 18, colors.ink, 13, "left", "600");
   if (arms.some(arm => arm.faded)) {
     const at = /** @type {Pixel} */ ([x + w / 2, y]);
@@ -281,13 +282,29 @@ function drawSpace(pen, arms, [x, y, w, h], named) {
   }
   for (const {cam, labels: own = []} of all)
     for (const label of own) labels.push({weight: "600", ...label, at: cam.to(label.at)});
-  placeLabels(
-    g,
-    labels,
-    [x + 4, y + 24, w - 8, h - 46],
-    all.flatMap(one => one.handles?.(one.cam) ?? []),
-  );
+  placeLabels(g, labels, [x + 4, y + 24, w - 8, h - 46], handles);
 }
+
+/**
+ * The centre of the directions of the base: at the lower right, or at the upper right if a handle is
+ * there.
+ * @param {Box} cell
+ * @param {Box[]} handles
+ * @returns {Pixel}
+ */
+function compassAt([x, y, w, h], handles) {
+  const right = x + w - COMPASS.room,
+    low = y + h - COMPASS.room;
+  const hidden = handles.some(
+    ([left, top, width, height]) =>
+      left + width > right - COMPASS.reach &&
+      top + height > low - COMPASS.reach &&
+      top < low + COMPASS.reach &&
+      left < right + COMPASS.reach,
+  );
+  return [right, hidden ? y + 60 : low];
+}
+const COMPASS = {room: 34, reach: 28}; // px: the centre's distance from the edges, and its radius
 
 /**
  * Draws the floor's grid; with `over`, a translucent floor on top of what is already drawn.

@@ -117,6 +117,7 @@ export function frameOf(root, data, picture) {
         if (room) handles.place();
         return room;
       });
+      answer(performance.now()); // writes the texts before the page is laid out, not after
     },
   };
 }
