@@ -1350,6 +1350,27 @@ def test_rings_and_the_axes_of_the_flange_are_inside_the_picture(browser, opened
     context.close()
 
 
+def test_directions_of_the_base_are_never_below_a_handle(context, opened):
+    context.add_init_script(RECORD)
+    heights = set()
+    for arm in (IRB140, SCARA):
+        shown = opened(target_explorer(arm), arm)
+        middle = shown.rk.locator("canvas").first.bounding_box()["height"] / 2
+        for place in itertools.product((0, 300, 600, 900), (-600, -300, 0, 300), (0, 200)):
+            for name, value in zip("xyz", place, strict=True):
+                shown.type(name, value)
+            shown.look()
+            canvas = shown.page.evaluate("canvasWords()")[0]
+            letters = [w["box"] for w in canvas["words"] if w["text"] in "xyz" and w["size"] == 10]
+            assert 2 <= len(letters) <= 3
+            for (x, y, w, h), box in itertools.product(letters, canvas["handles"]):
+                left, top, wide, high = box
+                across = left + 2 < x + w and x < left + wide - 2
+                assert not (across and top + 2 < y + h and y < top + high - 2), (place, box)
+            heights.add(letters[0][1] < middle)
+    assert heights == {True, False}, "no handle came to the lower right, or all did"
+
+
 @pytest.mark.parametrize("touched", [False, True], ids=["mouse", "touch"])
 def test_rings_are_at_the_axes_of_their_joints_and_do_not_overlap(browser, opened, touched):
     size, reach, apart = (44, 84, 39) if touched else (26, 60, 24)

@@ -343,6 +343,24 @@ def test_handles_stay_inside_the_scene_and_can_be_grasped_there(opened, phone, c
     assert grasped > 0, "no handle was at the edge"
 
 
+def test_a_handle_draws_less_than_can_be_touched(opened, phone):
+    """What stands below the outer 8 px of a handle stays visible."""
+    for kind in ("joint", "tour", "plan", "levers"):
+        shown = opened(VIEWS[kind](), within=phone)
+        sizes = shown.rk.locator("[data-handle]:visible").evaluate_all(
+            """all => all.map(handle => {
+              const {width, borderStyle, borderTopWidth} = getComputedStyle(handle, "::before");
+              const {background, borderWidth} = getComputedStyle(handle);
+              const drawn = parseFloat(width) + 2 * parseFloat(borderTopWidth);
+              return [handle.getBoundingClientRect().width, drawn, borderStyle, borderWidth,
+                      background.startsWith("rgba(0, 0, 0, 0)")]; })"""
+        )
+        assert len(sizes) >= 2
+        for touched, drawn, line, own, clear in sizes:
+            assert touched >= 43.9 and 20 < drawn < 28.1
+            assert line != "none" and own == "0px" and clear
+
+
 # --- Sizes ----------------------------------------------------------------------------------------
 
 # The controls smaller than 44 px. A label is part of its check box or radio button.
