@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 
 from robokin import SCARA, ScaraPose, deg, follow, mm, scara_arm, within
-from robokin.course import book, check, solution, variant
+from robokin.course import book, check, hint, predict, solution, variant
 from robokin.course.questions import filled
 
 LEVERS = 0.2, 0.25
@@ -74,6 +74,7 @@ def _by_ik_alone(q1, q2, l1, along, side):
         (_by_ik_alone, None),
         (lambda *case: print(case), "prints instead of returning"),
         (lambda q1, q2, *lengths: (q1, q2), None),
+        (lambda q1, q2, *lengths: (-q1, -q2), "every sign changed"),
     ],
 )
 def test_mistakes_in_the_other_elbow_are_named(answer, name):
@@ -171,6 +172,18 @@ def test_tool_is_at_the_edge_of_the_hole_with_joint_2_at_its_stop():
             assert CIRCLE["about_hole"](np.hypot(x, y) + off * mm, numbers)
 
 
+def test_circle_that_goes_out_to_the_distance_in_hint_2_stays_away_from_the_straight_arm():
+    words = " ".join(str(hint("scara_kinematics.2", 2)).split())
+    out = float(re.search(r"At q2 = 25°, the tool is (\d+) mm away", words)[1]) * mm
+    numbers = variant("scara_kinematics", "Ada")
+    space = {}
+    exec(str(solution("scara_kinematics.2")).replace('"your name"', '"Ada"'), space)
+    for off, named in ((0, False), (1 * mm, True)):
+        circle = space["my_circle"] | {"distance": out + off - numbers["radius"]}
+        says = str(check("scara_kinematics.2", circle, who="Ada"))
+        assert ("too close to the straight arm" in says) == named, says
+
+
 def test_task_matches_the_circle_in_the_lab():
     numbers = variant("scara_kinematics", "Ada")
     targets = CIRCLE["own_circle"](numbers, 0.3, 0.5)
@@ -256,6 +269,22 @@ def test_only_one_elbow_reaches_behind_the_arm_as_prediction_5_says():
 def test_radius_of_the_hole_in_prediction_6_follows_from_the_limit():
     x, y, _ = SCARA.fk([0, 120 * deg, 0, 0]).translation
     assert float(_right("p6")) == pytest.approx(np.hypot(x, y) / mm, abs=0.05)
+
+
+def test_radius_of_the_hole_of_the_labs_arm_is_recognised():
+    asked = predict("scara_kinematics.p6", 126)
+    assert asked.options[asked.at].confusion == "you used the stop of the lab's arm"
+
+
+@pytest.mark.parametrize("name", ["p3", "p6"])
+def test_no_reply_says_the_same_twice(name):
+    for option in filled(LAB.predictions[name])[1]:
+        if option.confusion:
+            said = re.sub("^you ", "", option.confusion)
+            assert said not in option.reason
+            own, after = (re.findall(r"\w+", x.lower()) for x in (said, option.reason))
+            shared = [k for k in range(len(own) - 5) if " ".join(own[k : k + 6]) in " ".join(after)]
+            assert not shared, option
 
 
 def test_areas_in_prediction_7_agree_with_a_grid():

@@ -297,7 +297,8 @@ def test_hole_notch_and_areas_of_the_zone_are_as_stated():
     assert len(inside) == inside.max() - inside.min() + 1, "wanted no gap between the two"
     one, either = numbers(r"elbow \+1: +(\d+) cm²\n.*either elbow: (\d+) cm²", said)
     told = (
-        "the area is only a quarter larger than with one, because the arm reaches most places with"
+        "With ±140° and ±150°, the area with two elbows is only a quarter larger than with one, "
+        "because the arm reaches most places with"
     )
     assert told in flat("04", "zone-look")
     assert either / one == pytest.approx(1.25, abs=0.01) and 2 * one - either > either / 2
@@ -312,7 +313,8 @@ def test_joint_3_ends_where_stated_after_a_turn_in_either_direction():
     q1 = -np.arctan2(250 * np.sin(q2), 200 + 250 * np.cos(q2))
     assert round(-(q1 + q2) / deg) == start  # the tool's angle is 0, and on a lap it turns by 360°
     assert [left, right] == [start + 360, start - 360] and right == -400 - over
-    assert "one turn to the left, and none to the right" in flat("04", "follow-answer")
+    told = "If the tool starts at 0°, it can make one turn to the left, and none to the right."
+    assert told in flat("04", "follow-answer")
 
 
 def test_both_motions_to_the_same_orientation_have_the_stated_greatest_speeds():

@@ -120,6 +120,7 @@ def p6() -> Mapping[str, Any]:
         "at the stop": distance(STOP) / mm,
         "folded": (L2 - L1) / mm,
         "inner angle": distance(np.pi - STOP) / mm,
+        "lab's stop": distance(HIGH[1]) / mm,
         "right angle": distance(np.pi / 2) / mm,
         "stretched": (L1 + L2) / mm,
         "zero": 0.0,
@@ -127,7 +128,7 @@ def p6() -> Mapping[str, Any]:
     bends = np.linspace(-STOP, STOP, 2401)
     near = np.linalg.norm(place(np.stack([0 * bends, bends], axis=-1)), axis=-1).min() / mm
     guesses["metres"] = distance(STOP)
-    told = {"stop": STOP / deg, "bent": distance(100 * deg) / mm}
+    told = {"stop": STOP / deg, "lab": HIGH[1] / deg, "bent": distance(100 * deg) / mm}
     return guesses | told | {"right": nearest(guesses, near)}
 
 

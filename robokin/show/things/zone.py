@@ -76,7 +76,7 @@ class Zone(Thing):
             corners = np.array([(start, near), (stop, near), (stop, far), (start, far)])
             points = [_between(arm, *corners[[k, (k + 1) % 4]]) for k in range(4)]
             sides.append(tuple(zip(joints, points, strict=True)))
-            for k, limit, share in ((1, stop, 0.15), (2, far, 0.4)):
+            for k, limit, share in ((1, stop, 0.05), (2, far, 0.4)):
                 if (joint := joints[k]) is not None:
                     text = f"q{joint + 1} = {limit / deg:g}°".replace("-", MINUS)
                     labels.append((text, points[k][round(share * (len(points[k]) - 1))]))
