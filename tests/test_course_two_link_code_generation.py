@@ -152,6 +152,33 @@ def test_elbows_of_the_package_do_not_give_the_point_between_them_out_of_reach()
     assert "side = 0" in verdict.case and verdict.points > 0.8  # everything else is right
 
 
+def test_a_root_that_is_nan_for_side_0_is_distinguished_from_rounding_on_the_rim():
+    """Both programs lack a test of the reach; only the first one takes the root for side 0."""
+
+    def answer(height):
+        def elbow(base, tip, l1, l2, side):
+            dx, dy = np.subtract(tip, base)
+            d2 = dx * dx + dy * dy
+            a = (d2 + l1**2 - l2**2) / (2 * d2)
+            with np.errstate(invalid="ignore"):
+                h = height(side, l1**2 / d2 - a**2)
+            return base + a * np.array([dx, dy]) + h * np.array([dy, -dx])
+
+        return check("two_link_code_generation.1", elbow)
+
+    both = answer(lambda side, h2: side * np.sqrt(h2))
+    assert both.mistake == "0 times NaN for side 0, and the stretched arm lost"
+    assert "side = 0" in both.case and "0 times NaN is NaN" in both.says[0]
+    assert answer(lambda side, h2: side and side * np.sqrt(h2)).mistake == "the stretched arm lost"
+
+
+def test_a_program_is_shown_by_its_length_and_one_line_as_it_is():
+    text = program(a=f"0.5 + {2 * K} / d2")
+    case = check("two_link_code_generation.2", f"\n{text}\n\n", who=WHO).case
+    assert case == f"  your answer is a program of {len(RIGHT)} lines"
+    assert check("two_link_code_generation.2", "xr = x3", who=WHO).case.endswith("'xr = x3'")
+
+
 def test_elbow_for_an_unreachable_tip_is_reported_with_different_numbers():
     space = {}
     exec(solution("two_link_code_generation.1"), space)

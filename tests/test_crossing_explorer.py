@@ -169,6 +169,11 @@ def test_singular_and_unreachable_tips_are_explained(opened):
         assert seen.says == says
         assert seen.rows[0][1:] == seen.rows[1][1:]
         assert (seen.rows[0][1:] == NONE) == says.startswith("Out")
+    one = "Along the dotted line, it does not jump: the two elbows are one at x3 = 0."
+    for l2, x, rim, inside in ((0.4, 0.9, 0.6, 0.61), (0.7, 0.9, -0.3, -0.31), (0.7, 0, 1.7, 1.69)):
+        shown = opened(crossing_explorer(two_link(1, l2), (0.9, 0.6), divisor="x3"))
+        assert moved(shown, x, rim).says.endswith(one), rim
+        assert re.search(r"it jumps by 0\.[1-9]\d* m at x3 = 0\.$", moved(shown, x, inside).says)
     gap = opened(crossing_explorer(two_link(1, 0.7), (-0.9, 0.2), divisor="x3")).look().says
     assert gap.endswith(
         "The dotted line does not cross x3 = 0 within reach, so the formula does not jump."

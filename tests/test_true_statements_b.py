@@ -680,7 +680,10 @@ def test_elbow_formula_is_exact_at_every_point_but_one_and_jumps_there():
 def generated():
     """Return the programs that the lab generates in sections 2 and 5 and under More."""
     pytest.importorskip("sympy")
-    names = "derive-line derive-check elimination-code sides-setup sides-code count-code"
+    names = (
+        "derive-line derive-check elimination-code sides-setup sides-code count-operations "
+        "count-code edges-judge"
+    )
     return run("12", *names.split())
 
 
@@ -693,6 +696,40 @@ def test_the_table_near_zero_uses_the_formulas_of_the_lab():
         x3 = as_number(x3)
         own = [np.hypot(*rule(x3, 1.0, 1.0)) for rule in (made["elbow_by_root"], made["root_code"])]
         assert [f"{x:.6f}" for x in own] == [one, two]
+
+
+def test_errors_near_the_line_x3_0_are_as_stated():
+    """A tip above the base whose x3 is tiny; the elbow should be 1 m from the base and the tip."""
+    made = generated()
+
+    def error(rule, x3):
+        elbow = rule(x3, 1.0, 1.0)
+        return max(abs(np.hypot(*elbow) - 1), abs(np.hypot(elbow[0] - x3, elbow[1] - 1) - 1))
+
+    x3, off = said("12", "edges-look", r"(\S+) nm from that line, its elbow is (\S+) nm off")
+    assert round(1e9 * error(made["elbow_by_root"], x3 * 1e-9)) == off
+    assert made["edges"][f"{x3:.0f} nm off x3 = 0"][0] == (x3 * 1e-9, 1.0)
+    off, power = said("12", "sides-look", r"wrong by (\S+) µm at \$10\^\{(-\d+)\}\$ m")
+    assert round(1e6 * error(made["elbow_by_root"], 10**power)) == off
+    power, far = said(
+        "12", "sides-look", r"at \$10\^\{(-\d+)\}\$ m its elbow is already only (\S+) m"
+    )
+    assert abs(np.hypot(*made["root_code"](10**power, 1.0, 1.0)) - far) < 1e-6
+    assert error(made["root_code"], 1e3 * 10**power) < 1e-5
+    for rule in (made["elbow_by_root"], made["root_code"]):
+        assert error(rule, np.cos(np.pi / 2)) > 0.1
+
+
+def test_the_table_near_zero_does_not_depend_on_the_unknown_tried_in_section_3():
+    pytest.importorskip("sympy")
+    names = ("derive-line", "derive-check", "elimination-code", "sides-setup", "sides-code")
+    tried = {k: cells("12")[k].replace("gone = x2 ", "gone = y2 ") for k in names}
+    assert tried["elimination-code"] != cells("12")["elimination-code"]
+    other: dict = {}
+    for text in tried.values():
+        exec(text, other)
+    for x3 in (1.0, 1e-6, 1e-9):
+        assert other["root_code"](x3, 1.0, 1.0) == generated()["root_code"](x3, 1.0, 1.0)
 
 
 def test_rounding_at_the_limit_of_reach_loses_the_stated_number_of_answers():
@@ -710,6 +747,15 @@ def test_rounding_at_the_limit_of_reach_loses_the_stated_number_of_answers():
     assert [np.isnan(given["out0"]).sum(), count, np.isnan(plain).sum()] == [
         int(x) for x in told.groups()
     ]
+    singly = [0, 0]  # the same programs for one tip at a time
+    for x3, y3 in zip(*tips.values(), strict=True):
+        one = given | {"x3": x3, "y3": y3}
+        with np.errstate(invalid="ignore"):
+            exec(made["written"](made["general"]), one)
+            first = eval(str(made["general"][0]), {k: one[k] for k in one if k[0] in "xyls"})
+        singly = [singly[0] + np.isnan(one["out0"]), singly[1] + np.isnan(first)]
+    assert "so are both counts" in options[right].reason
+    assert all(x != int(y) for x, y in zip(singly, told.groups()[::2], strict=True)), singly
 
 
 def test_lab_and_exercise_3_state_the_same_accuracy():

@@ -932,7 +932,10 @@ def test_between_two_jumps_the_arm_misses_the_tip():
     (most,) = re.search(said, flat("12", "casts-drag")).groups()
     greatest = []
     made = {"np": np}
-    exec(cells("12")["casts-motion"], made)
+    for name in ("casts-motion", "casts-player"):
+        exec(cells("12")[name], made)
+    assert "The time in s is also $x_3$ in m." in flat("12", "casts")
+    assert "animate([big, big], reach_x," in cells("12")["casts-player"]
     for y in (1.1, 1.6, 2.1):
         x = np.linspace(1.0, 3.5, 2001)
         elbow = np.array([made["listing"](each, y, 2.5, int) for each in x])

@@ -37,6 +37,7 @@ SAYS = {
     "meet": "Along the dotted line, the two elbows meet at {count} places.",
     "returns": "The formula returns the {elbow}.",
     "jumps": "Along the dotted line, it jumps by {jump} {unit} at {line}.",
+    "one": "Along the dotted line, it does not jump: the two elbows are one at {line}.",
     "stays": "The dotted line does not cross {line} within reach, so the formula does not jump.",
     "nothing": "At {line}, the formula divides 0 by 0 and returns no number, although the tip "
     "is in reach.",

@@ -5,6 +5,7 @@ beside it.
 import ast
 import re
 from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
@@ -44,6 +45,21 @@ def operations(program: str) -> int:
     return sum(isinstance(node, (ast.BinOp, ast.Call)) for node in nodes) + sum(
         not isinstance(operand, ast.Constant) for operand in signs
     )
+
+
+@dataclass(frozen=True)
+class Program:
+    """What a verdict shows instead of the whole text."""
+
+    lines: int
+
+    def __repr__(self) -> str:
+        return f"a program of {self.lines} lines"
+
+
+def plain(answer: Any) -> Any:
+    lines = [line for line in answer.splitlines() if line.strip()] if type(answer) is str else []
+    return Program(len(lines)) if len(lines) > 1 else answer
 
 
 def form(answer: Any, given: Any) -> str:

@@ -40,8 +40,7 @@ def p1() -> dict[str, Any]:
 def p2() -> dict[str, Any]:
     l1, l2, d = NEAR.values()
     a = (d**2 + l1**2 - l2**2) / (2 * d**2)
-    facts: dict[str, Any] = {"a": f"a = {a:.2f}".translate(MINUS), "share": a}
-    facts |= {"h": math.sqrt(l1**2 / d**2 - a**2), "at": abs(a) * d}
+    facts = {"share": a, "h": math.sqrt(l1**2 / d**2 - a**2), "at": abs(a) * d}
     right = below(a, {"behind the base": 0, "nearer to the base": 0.4, "middle": np.inf})
     return NEAR | facts | {"ratio": l1 / (l1 + l2) * 100, "right": right}
 

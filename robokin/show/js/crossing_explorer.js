@@ -25,6 +25,8 @@ import {lengths} from "./turns.js";
 /** @import {TwoLinkArm} from "./crossing.js" */
 /** @import {Stage} from "./stage.js" */
 
+const SAME = 1e-6; // times the reach: elbows that are closer together are one, apart from rounding
+
 /** @typedef {CrossingPage & {arm: TwoLinkArm}} CrossingExplorer */
 /** @typedef {{tip: Point}} State */
 /** @typedef {ReturnType<typeof foundAt>} Found */
@@ -187,8 +189,12 @@ function told(data, {tip}, {rows: postures, which, crossing}) {
   const line = fill(words.line, lineOf(data));
   if (which < 0) says.push(fill(words.nothing, {line}));
   else if (!says.length) says.push(fill(words.returns, {elbow: rows[which]}));
-  const jump = crossing.length ? inUnit(data, distance(crossing[0], crossing[1])) : "";
-  says.push(fill(jump ? words.jumps : words.stays, {jump, unit: unit.name, line}));
+  const apart = crossing.length ? distance(crossing[0], crossing[1]) : 0,
+    still = crossing.length ? words.one : words.stays,
+    jump = inUnit(data, apart);
+  says.push(
+    fill(apart > SAME * arm.geometry.reach ? words.jumps : still, {jump, unit: unit.name, line}),
+  );
   return says.join(" ");
 }
 
