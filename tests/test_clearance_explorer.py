@@ -190,8 +190,11 @@ def test_page_names_the_point_that_is_out_of_reach_and_says_why(opened):
     shows(shown)
     shown.press("K3", *["Shift+ArrowLeft"] * 5)
     said = shown.look().says
-    why = ARM.out_of_reach((0.55, 0.3))
-    assert said == f"K3: No posture reaches this point: {why}."
+    assert said == (
+        "K3: This course allows only points farther from the base than one lever (1000.0 mm); this "
+        "one lies 626.5 mm from it."
+    )
+    assert ARM.out_of_reach((0.55, 0.3)).startswith("it lies 626.5 mm from the base, not farther")
     assert "no path" in shown.rk.inner_text()
     for name in (".rk-scene", ".rk-curves"):
         assert said in shown.rk.locator(name).get_attribute("aria-label")
@@ -234,8 +237,8 @@ def test_invalid_arguments_are_refused(changes, error, says):
 
 def test_summary_describes_the_still_picture():
     near, wide = view().data["summary"], view([(0.7, 1.8), (1.0, 1.2)]).data["summary"]
-    assert near.endswith("lever BA of Three levers comes as near as 0.0 mm, nearer than the "
+    assert near.endswith("lever BA of Three levers comes within 0.0 mm of H, nearer than the "
                          "required 142.9 mm.")  # fmt: skip
     least = clearance(ARM, path_through([(0.7, 1.8), (1.0, 1.2), K1]), H).min()
-    assert f"as near as {least / mm:.1f} mm, farther than the required 142.9 mm." in wide
+    assert f"within {least / mm:.1f} mm of H, farther than the required 142.9 mm." in wide
     assert clearance_explorer(ARM, START, K1, H).data["title"] == "From K to K1, past an obstacle H"

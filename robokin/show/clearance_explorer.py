@@ -29,7 +29,7 @@ WORDS_HERE: Mapping[str, str] = {
     "toLeast": "Nearest moment",
     "none": "no path",
     "where": "lever {lever}, after {percent} % of the motion",
-    "sweeps": "lever {lever} sweeps H, after {percent} % of the motion",
+    "hits": "lever {lever} hits H, after {percent} % of the motion",
     "kept": "All levers stay at least {wanted} away from H. The least distance between "
     "gripper and H is {gripper}. S = {S}°.",
     "notKept": "Too near: the levers should stay at least {wanted} away from H. The least distance "
@@ -80,7 +80,7 @@ def clearance_explorer(
     title = f"From K{f' through {through}' * bool(len(vias))} to K1, past an obstacle H"
     kept = "farther than" if each.min() >= distance else "nearer than"
     summary = (
-        f"{title}: lever {lever} of {arm.name} comes as near as {in_words(each.min())}, {kept} the "
+        f"{title}: lever {lever} of {arm.name} comes within {in_words(each.min())} of H, {kept} the "
         f"required {in_words(distance)}."
     )
     moments = along(path, np.linspace(0, 1, 25))

@@ -151,8 +151,8 @@ def reasons(arm: ThreeLeverArm) -> dict[str, str]:
     unequal = len(set(arm.geometry.levers)) > 1
     what = "|OB \N{MINUS SIGN} BA| + AK" if unequal else "one lever"
     return {
-        "tooNear": f"{NOWHERE}it lies {{distance}} from the base, not farther than {what} "
-        "({inner}).",
+        "tooNear": f"This course allows only points farther from the base than {what} ({{inner}}); "
+        "this one lies {distance} from it.",
         "tooFar": f"{NOWHERE}it lies {{distance}} from the base, farther than three levers "
         "({reach}).",
         "pastGamma": f"{NOWHERE}every posture for it has gamma outside 0° to 180°.",

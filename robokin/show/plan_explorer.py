@@ -151,10 +151,11 @@ def _result(
 ) -> tuple[str, bool]:
     """Return the result in one sentence, and whether the distance is kept."""
     if len(path) == 1:
-        out = "K1 is out of reach" if way == "direct" else "K2, K3 and K1 are not all within reach"
-        return ("No: the arm does not move." if way == WAYS[0] else f"No: {out}."), False
+        some = "K2, K3 and K1 are not all within"
+        out = "K1 is outside" if way == "direct" else some
+        return ("No: the arm does not move." if way == WAYS[0] else f"No: {out} the allowed reach."), False
     S = f"S = {abs(np.diff(path, axis=0)).sum() / deg:.0f}° (direct {known.least / deg:.0f}°)"
-    far = f"comes as near as {in_words(near)}" if near else "sweeps H"
+    far = f"comes within {in_words(near)} of H" if near else "hits H"
     kept = near >= distance
     name = known.way if way == WAYS[0] else f"{way}, {'safe' if kept else 'not safe'}"
     return f"{name[0].upper()}{name[1:]}: {S}, lever {LEVERS[lever]} {far}.", kept
@@ -175,7 +176,7 @@ def _direct(arm: ThreeLeverArm, start: Floats, target: Floats, H: Floats) -> dic
     passes = f"{' and '.join(over)} truly" if over else "no lever"
     return {
         "quadrilaterals": np.stack([[A, K, K1, A1], [B, A, A1, B1]]).tolist(),
-        "says": f"{lies}; on the direct way {passes} "
+        "says": f"{lies}; in the direct motion, {passes} "
         f"{'pass' if len(over) > 1 else 'passes'} over H.",
     }
 

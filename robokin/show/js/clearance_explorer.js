@@ -177,7 +177,7 @@ function told({words: says}, found) {
   const touches = distance < TOUCHES;
   return {
     distance: facts.distance,
-    where: fill(touches ? says.sweeps : says.where, facts),
+    where: fill(touches ? says.hits : says.where, facts),
     kept,
     says: fill(kept ? says.kept : says.notKept, facts) + (now === nearest ? "" : ` ${shown}`),
     curve: fill(says.curveSays, facts),
