@@ -111,7 +111,7 @@ def shows(shown):
     assert seen.says.startswith("All levers stay" if least.min() >= KEPT else "Too near")
     gripper = np.hypot(*(ARM.points(q)[:, 3] - place).T).min()
     S = abs(np.diff(path, axis=0)).sum() / deg
-    told = re.search(r"gripper and H is ([\d.]+) mm\. S = ([\d.]+)°", seen.says).groups()
+    told = re.search(r"H is ([\d.]+) mm\. All joint turns add up to S = ([\d.]+)°", seen.says).groups()
     assert [float(x) for x in told] == pytest.approx([gripper / mm, S], abs=0.3)
     near = far(ARM, along(path, int(percent) / 100 + np.linspace(-0.006, 0.006, 25)), place).min()
     assert near == pytest.approx(least.min(), abs=5 * mm)
@@ -146,6 +146,11 @@ def test_keys_move_letters_by_1_and_10_cm(opened):
     assert "H, the obstacle, 1.110, 1.390 m" in shown.look().handles["H"]["name"]
     shown.press("K3", "Shift+ArrowDown")
     assert "1.050, 1.100 m" in shown.look().handles["K3"]["name"]
+    # the coordinates of the letter that has the focus are in a corner of the scene
+    layer = shown.rk.locator(".rk-handles")
+    assert layer.get_attribute("data-at") == "K3: 1.050, 1.100 m"
+    shown.rk.locator("[data-handle=H]").focus()
+    assert layer.get_attribute("data-at") == "H: 1.110, 1.390 m"
     shows(shown)
 
 

@@ -329,7 +329,7 @@ def shows_what_python_says(tab):
     assert tab.locator(".rk-says").inner_text() == known.words
     verdict = tab.locator(".rk-result").inner_text()
     if known.found:
-        S, near = re.search(r"S = (\d+)° .*lever .*?([\d.]+) mm\.$", verdict).groups()
+        S, near = re.search(r"S = (\d+)° .*lever .*?([\d.]+) mm of H\.$", verdict).groups()
         assert f"{known.cost / deg:.0f}" == S
         assert f"{known.clearance.min() * 1000:.1f}" == near
     else:
@@ -356,6 +356,21 @@ def test_exported_page_is_inactive_except_for_parts_that_need_no_kernel(quiet, s
     found = Axe().run(quiet, context=".rk").response["violations"]
     assert [rule["id"] for rule in found if rule["impact"] in ("serious", "critical")] == []
     assert quiet.errors == [] and quiet.outside == []
+
+
+def test_letters_go_back_when_the_kernel_has_ended(quiet, tmp_path):
+    """The last answer stays on the screen, so its obstacle and its target do, too."""
+    plan_explorer(ARM, START, (1.9, 0.3), (1.2, 1.3)).save(tmp_path / "plan.html")
+    quiet.goto((tmp_path / "plan.html").as_uri())
+    player, H = quiet.locator(".robokin-player"), quiet.locator("[data-handle=H]")
+    player.evaluate("""e => e.dispatchEvent(new CustomEvent(
+      "robokin-wake", {detail: () => { throw new Error("no kernel"); }}))""")
+    quiet.locator(".robokin-player[data-awake]").wait_for()
+    H.press("Shift+ArrowRight")
+    asleep(quiet)
+    until(
+        lambda: H.get_attribute("aria-label") == "H, the obstacle, 1.200, 1.300 m", "moved", quiet
+    )
 
 
 def test_stored_picture_is_small_and_nbval_passes(stored):

@@ -37,6 +37,7 @@ SAYS: Mapping[str, str] = {
     "atEnd": "an end of its range.",
     "isLevel": "the curve of S has a horizontal tangent there.",
     "curveSays": "S for alpha from {low}° to {high}°. The least S is {least}°, at {best}°.",
+    "nowhere": "outside the allowed reach",
     "kink": "A kink at {alpha}°, where {name} keeps its value.",
 }
 
