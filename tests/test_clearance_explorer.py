@@ -111,7 +111,7 @@ def shows(shown):
     assert seen.says.startswith("All levers stay" if least.min() >= KEPT else "Too near")
     gripper = np.hypot(*(ARM.points(q)[:, 3] - place).T).min()
     S = abs(np.diff(path, axis=0)).sum() / deg
-    told = re.search(r"gripper and H is ([\d.]+) mm\. S = ([\d.]+)°", seen.says).groups()
+    told = re.search(r"H is ([\d.]+) mm\. All joint turns add up to S = ([\d.]+)°", seen.says).groups()
     assert [float(x) for x in told] == pytest.approx([gripper / mm, S], abs=0.3)
     near = far(ARM, along(path, int(percent) / 100 + np.linspace(-0.006, 0.006, 25)), place).min()
     assert near == pytest.approx(least.min(), abs=5 * mm)
@@ -146,6 +146,11 @@ def test_keys_move_letters_by_1_and_10_cm(opened):
     assert "H, the obstacle, 1.110, 1.390 m" in shown.look().handles["H"]["name"]
     shown.press("K3", "Shift+ArrowDown")
     assert "1.050, 1.100 m" in shown.look().handles["K3"]["name"]
+    # the coordinates of the letter that has the focus are in a corner of the scene
+    layer = shown.rk.locator(".rk-handles")
+    assert layer.get_attribute("data-at") == "K3: 1.050, 1.100 m"
+    shown.rk.locator("[data-handle=H]").focus()
+    assert layer.get_attribute("data-at") == "H: 1.110, 1.390 m"
     shows(shown)
 
 
@@ -190,8 +195,11 @@ def test_page_names_the_point_that_is_out_of_reach_and_says_why(opened):
     shows(shown)
     shown.press("K3", *["Shift+ArrowLeft"] * 5)
     said = shown.look().says
-    why = ARM.out_of_reach((0.55, 0.3))
-    assert said == f"K3: No posture reaches this point: {why}."
+    assert said == (
+        "K3: This course allows only points farther from the base than one lever (1000.0 mm); this "
+        "one lies 626.5 mm from it."
+    )
+    assert ARM.out_of_reach((0.55, 0.3)).startswith("it lies 626.5 mm from the base, not farther")
     assert "no path" in shown.rk.inner_text()
     for name in (".rk-scene", ".rk-curves"):
         assert said in shown.rk.locator(name).get_attribute("aria-label")
@@ -234,8 +242,8 @@ def test_invalid_arguments_are_refused(changes, error, says):
 
 def test_summary_describes_the_still_picture():
     near, wide = view().data["summary"], view([(0.7, 1.8), (1.0, 1.2)]).data["summary"]
-    assert near.endswith("lever BA of Three levers comes as near as 0.0 mm, nearer than the "
+    assert near.endswith("lever BA of Three levers comes within 0.0 mm of H, nearer than the "
                          "required 142.9 mm.")  # fmt: skip
     least = clearance(ARM, path_through([(0.7, 1.8), (1.0, 1.2), K1]), H).min()
-    assert f"as near as {least / mm:.1f} mm, farther than the required 142.9 mm." in wide
+    assert f"within {least / mm:.1f} mm of H, farther than the required 142.9 mm." in wide
     assert clearance_explorer(ARM, START, K1, H).data["title"] == "From K to K1, past an obstacle H"

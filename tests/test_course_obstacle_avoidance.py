@@ -118,6 +118,25 @@ def _open_upward(outlines, H):
     return bool(odd)
 
 
+def _open_by_slices(outlines, H):
+    """zip(corners, corners[1:]), and a corner at the height of H counts as above it."""
+    odd = False
+    for c in outlines:
+        for P, Q in zip(c, c[1:], strict=False):
+            if min(P[1], Q[1]) < H[1] <= max(P[1], Q[1]):
+                odd ^= P[0] + (H[1] - P[1]) / (Q[1] - P[1]) * (Q[0] - P[0]) > H[0]
+    return bool(odd)
+
+
+def _open_leftward(outlines, H):
+    odd = False
+    for c in outlines:
+        for P, Q in zip(c, c[1:], strict=False):
+            if (P[1] >= H[1]) != (Q[1] >= H[1]):
+                odd ^= P[0] + (H[1] - P[1]) / (Q[1] - P[1]) * (Q[0] - P[0]) < H[0]
+    return bool(odd)
+
+
 def _by_products(outlines, H):
     """A test that counts the crossings of the sides, except those at an end point of a side."""
     count = 0
@@ -138,6 +157,8 @@ def _box(outlines, H):
         (_winding, "any turns, not an odd number"),
         (_strictly_convex, "no dent allowed"),
         (_open_upward, "the closing side left out"),
+        (_open_by_slices, "the closing side left out"),
+        (_open_leftward, "the closing side left out"),
         (_by_products, "a corner counted twice, or not at all"),
         (_areas, "no dent allowed"),
         (_both_ways, "always outside"),

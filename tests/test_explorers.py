@@ -612,8 +612,8 @@ def test_sliders_change_the_lever_lengths(opened):
     shown.type("lever AK", 1.5)  # the point is now nearer than |OB - BA| + AK
     shown.type("lever BA", 0.5)
     assert shown.look().says == (
-        "No posture reaches this point: it lies 1565.2 mm from the base, not farther than "
-        "|OB \N{MINUS SIGN} BA| + AK (2300.0 mm)."
+        "This course allows only points farther from the base than |OB \N{MINUS SIGN} BA| + AK "
+        "(2300.0 mm); this one lies 1565.2 mm from it."
     )
 
 

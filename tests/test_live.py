@@ -16,7 +16,8 @@ from conftest import ROOT, until
 
 from robokin import deg, three_lever
 from robokin.course.export import export
-from robokin.jobs.obstacles import distances, keeps, plan, via_path
+from robokin.jobs.obstacles import clearance, distances, keeps, plan, via_path
+from robokin.jobs.obstacles.planner import CIRCLES
 from robokin.jobs.obstacles.posture_grid import NEVER, coarse_search
 from robokin.show import joiner, live, markup, plan_explorer
 from robokin.show.plan_explorer import AWAY, FORBIDDEN, STEP
@@ -85,7 +86,16 @@ def test_unchecked_paths_are_judged_by_lever_clearance():
         for way in (1, 2):
             said = answer(question | {"way": way})
             if way == 1:
-                path = via_path(ARM, posture, target, H, max(wanted, 1 / 7))
+                first = max(wanted, 1 / 7)
+                radii = [first, *(r for r in CIRCLES if r > first)]
+                paths = [via_path(ARM, posture, target, H, r) for r in radii]
+                room = [clearance(ARM, p, H).min() if np.isfinite(p).all() else -1 for p in paths]
+                path = paths[int(np.argmax(np.minimum(room, wanted)))]
+                told = re.search(r"K2 and K3, ([\d.]+) mm", said["words"])
+                if told:  # picture and sentence are about the same circle
+                    drawn = np.hypot(*(np.array(said["via"]) - H).T)
+                    assert drawn == pytest.approx([float(told[1]) / 1000] * 2, abs=6e-5)
+                    seen.add("told")
             else:
                 path = np.stack([posture, ARM.least(target, posture)[0]])
             if np.isnan(path).any():
@@ -95,7 +105,7 @@ def test_unchecked_paths_are_judged_by_lever_clearance():
             kept = bool(keeps(ARM, path[:-1], path[1:], H, wanted).all())
             assert said["kept"] == kept == ("not safe" not in said["result"])
             seen.add((way, kept))
-    assert seen == {(1, True), (1, False), (2, True), (2, False)}
+    assert seen == {(1, True), (1, False), (2, True), (2, False), "told"}
 
 
 def test_cube_of_postures_agrees_with_distances_and_a_simple_search():
@@ -319,7 +329,7 @@ def shows_what_python_says(tab):
     assert tab.locator(".rk-says").inner_text() == known.words
     verdict = tab.locator(".rk-result").inner_text()
     if known.found:
-        S, near = re.search(r"S = (\d+)° .*lever .*?([\d.]+) mm\.$", verdict).groups()
+        S, near = re.search(r"S = (\d+)° .*lever .*?([\d.]+) mm of H\.$", verdict).groups()
         assert f"{known.cost / deg:.0f}" == S
         assert f"{known.clearance.min() * 1000:.1f}" == near
     else:
@@ -346,6 +356,21 @@ def test_exported_page_is_inactive_except_for_parts_that_need_no_kernel(quiet, s
     found = Axe().run(quiet, context=".rk").response["violations"]
     assert [rule["id"] for rule in found if rule["impact"] in ("serious", "critical")] == []
     assert quiet.errors == [] and quiet.outside == []
+
+
+def test_letters_go_back_when_the_kernel_has_ended(quiet, tmp_path):
+    """The last answer stays on the screen, so its obstacle and its target do, too."""
+    plan_explorer(ARM, START, (1.9, 0.3), (1.2, 1.3)).save(tmp_path / "plan.html")
+    quiet.goto((tmp_path / "plan.html").as_uri())
+    player, H = quiet.locator(".robokin-player"), quiet.locator("[data-handle=H]")
+    player.evaluate("""e => e.dispatchEvent(new CustomEvent(
+      "robokin-wake", {detail: () => { throw new Error("no kernel"); }}))""")
+    quiet.locator(".robokin-player[data-awake]").wait_for()
+    H.press("Shift+ArrowRight")
+    asleep(quiet)
+    until(
+        lambda: H.get_attribute("aria-label") == "H, the obstacle, 1.200, 1.300 m", "moved", quiet
+    )
 
 
 def test_stored_picture_is_small_and_nbval_passes(stored):

@@ -436,11 +436,11 @@ def test_plan_text_gives_the_number_of_the_obstacle():
         ("Obstacle 2 lies 50.0 mm from the base", (far, (0.05, 0))),
         ("The target lies 100.0 mm from obstacle 2", (far, (1.8, 0.7))),
         ("already 0.0 mm from obstacle 1", (KNOWN[3], far)),
-        ("The direct way is clear: no obstacle is on it.", (far, far)),
+        ("The direct motion is clear: no obstacle is in its way.", (far, far)),
     ):
         assert words in plan(ARM, Q0, (1.8, 0.6), obstacle).words
     q0, K1, H = next(tasks(1))
-    assert "lever AK sweeps an obstacle. " in plan(ARM, q0, K1, [far, H]).words
+    assert "lever AK hits an obstacle. " in plan(ARM, q0, K1, [far, H]).words
 
 
 @pytest.fixture(scope="module")
@@ -463,7 +463,7 @@ def test_plans_keep_their_clearance_or_find_no_path(answers):
             assert (
                 answer.way == "none" and answer.path.tolist() == [q0.tolist()] and answer.cost == 0
             )
-            assert "no way" in answer.words or "No path keeps" in answer.words
+            assert "no path" in answer.words or "No path keeps" in answer.words
             assert ("No path keeps" in answer.words) == (
                 min(seen(q0, H).min(), np.hypot(*(K1 - H))) < KEPT
             )
@@ -483,17 +483,17 @@ def test_plans_keep_their_clearance_or_find_no_path(answers):
 
 def test_plan_text_names_the_nearest_lever(answers):
     """If two levers meet at the nearest point, the text names the lever nearer to the base."""
-    told = re.compile(r"lever (\w+) (sweeps|comes as near as ([0-9.]+) mm)")
+    told = re.compile(r"lever (\w+) (hits|comes within ([0-9.]+) mm of) the obstacle")
     for q0, K1, H, answer in answers:
         if "No path keeps" in answer.words:
             continue
         circles = {f"{1000 * r:.1f} mm from the obst": via_path(ARM, q0, K1, H, r) for r in CIRCLES}
         reached = [path for path in circles.values() if not np.isnan(path).any()]
-        assert ("not both within reach" in answer.words) == (not reached)
+        assert ("not both within the allowed reach" in answer.words) == (not reached)
         paths = [[q0, ARM.least(K1, q0)[0]]]
         paths += [path for words, path in circles.items() if words in answer.words]
         found = told.findall(answer.words)
-        assert found[0][1] == "sweeps"
+        assert found[0][1] == "hits"
         if answer.way == "via points":
             assert len(found) == 1 and len(paths) == 2
             np.testing.assert_allclose(answer.path, paths[1], rtol=0, atol=1e-12)
@@ -511,7 +511,7 @@ def test_plan_text_names_the_nearest_lever(answers):
             lever = LEVERS.index(name)
             assert least[lever] <= least.min() + fast
             assert (least[:lever] > least.min() + 1e-6).all()
-            if what == "sweeps":
+            if what == "hits":
                 assert least.min() <= fast
             else:
                 assert abs(float(near) / 1000 - least.min()) <= fast + 5.1e-5 and float(near) > 0
@@ -639,7 +639,7 @@ def test_direct_plan_has_no_via_postures():
         )
         assert answer.cost == pytest.approx(answer.least) == pytest.approx(18.300924618454935 * deg)
     assert np.isinf(free.clearance).all() and beside.clearance.min() > 2
-    assert "no obstacle is given" in free.words and "not on it" in beside.words
+    assert "no obstacle is given" in free.words and "not in its way" in beside.words
 
 
 def test_via_points_of_the_document_leave_less_clearance():
@@ -689,7 +689,7 @@ KNOWN = ARM.points(Q0)
 @pytest.mark.parametrize(
     "target, obstacle, words",
     [
-        ((0.5, 0.5), (1.5, 1.5), "not farther than one lever"),
+        ((0.5, 0.5), (1.5, 1.5), "not farther than one lever (1000.0 mm), which this course does"),
         ((2.5, 2.5), (1.5, 1.5), "farther than three levers"),
         ((0, 0), (1.5, 1.5), "not farther than one lever"),
         ((-1.97, 0.35), (1.5, 1.5), "gamma outside 0 to 180 degrees"),
@@ -702,7 +702,7 @@ KNOWN = ARM.points(Q0)
         ((1.8, 0.6), (KNOWN[1] + KNOWN[2]) / 2, "At the start lever BA is already 0.0 mm"),
         (KNOWN[3], KNOWN[3], "At the start"),
         # the arm is stretched over the obstacle, so no posture at the target is free
-        ((2.99, 0.1), (1.5, 0.05), "finds no way"),
+        ((2.99, 0.1), (1.5, 0.05), "finds no path"),
     ],
 )
 def test_impossible_plans_give_a_reason(target, obstacle, words):

@@ -443,7 +443,7 @@ def test_wavefront_search_starts_and_ends_in_proven_postures(capsys):
         run("10", *names, changed=[("step = 10", f"step = {step}")])
         printed = capsys.readouterr().out
         steps, _ = grid_wave(step, H)
-        cannot = re.search(r"cannot start: .* as near as (\d+) mm", printed)
+        cannot = re.search(r"cannot start: .* comes within (\d+) mm", printed)
         came = re.search(r"comes to one after (\d+) steps", printed)
         assert (came and int(came[1])) == steps
         assert bool(cannot) == (step == 20) == ("to none" in printed)
@@ -473,6 +473,7 @@ def test_the_documents_test_finds_as_few_obstacles_as_stated():
         "box around",
     ):
         assert words in options[right][1]
+    assert "makes 8 drawings, each with H in the middle" in question
     path = pytest.importorskip("matplotlib.path").Path
 
     def found_in(tasks):
@@ -499,13 +500,28 @@ def test_the_documents_test_finds_as_few_obstacles_as_stated():
 
     inside, found = found_in(drawn(np.random.default_rng(77), 1500))
     told = re.match(
-        r"(\d+) of (\d+)\..* H is inside (\d+) times.* finds it (\d+)", options[right][1]
+        r"(\d+) of (\d+)\..* in 1500 random motions, H was inside the quadrilateral (\d+) times, "
+        r"and the test found it (\d+) times",
+        options[right][1],
     )
-    few, many, own, own_found = map(int, told.groups())
+    seen, drawings, many, few = map(int, told.groups())
     p = few / many
     assert p < 0.1 and abs(found / inside - p) < 3 * np.sqrt(2 * p * (1 - p) / inside)
-    section_7 = ((*ARM.points(direct(q, target))[:, 2:], H) for q, target, H in sampled_tasks())
-    assert found_in(section_7) == (own, own_found)
+    A, K, K_1, A1 = np.array([(0.8, 1.5), (1.75, 1.7), (1.85, 0.5), (0.9, 0.6)])
+    assert (
+        "drawn = np.array([(0.8, 1.5), (1.75, 1.7), (0.9, 0.6), (1.85, 0.5)])"
+        in (cells("10")["drawing-tools"])
+    )
+    same, upper = [], []
+    for mirrored in (1, -1):
+        for quarters in range(4):
+            turn = np.linalg.matrix_power([[0, 1], [-1, 0]], quarters)
+            a, k, k1, a1 = (np.array([A, K, K_1, A1]) * (mirrored, 1)) @ turn
+            H = np.mean([a, k, k1, a1], axis=0)
+            same.append(found_in([((a, k), (a1, k1), H)]))
+            upper.append(line(a1, k1, H[0]) < H[1] < line(a, k, H[0]))
+    assert np.sum(same, axis=0).tolist() == [drawings, seen] and same[0] == (1, 1)
+    assert upper[4], "mirrored left and right, AK is still the upper line"
 
 
 def test_areas_outside_the_quadrilateral_are_as_stated():
@@ -545,10 +561,11 @@ def test_six_samples_miss_the_minimum():
 def test_task_prints_degrees_but_holds_radians():
     given = variant("obstacle_avoidance", "your name")
     path_form = content("obstacle_avoidance").module("past_a_bar")["form"]
-    assert said("10", "task-2", r"`my_task` prints (\w+), but its values are in (\w+)\.") == [
-        "degrees",
-        "radians",
-    ]
+    words = (
+        "`my_task` prints degrees and, for the distance, millimetres; its values are in radians "
+    )
+    assert words + "and metres." in " ".join(cells("10")["task-2"].split())
+    assert re.search(r"^distance +100 mm$", repr(given), re.M) and given["distance"] == 0.1
     for name in ("gamma", "beta", "alpha", "most"):
         (printed,) = re.findall(rf"^{name} +(\S+) °", repr(given), re.M)
         assert given[name] / deg == pytest.approx(float(printed), abs=1e-3)

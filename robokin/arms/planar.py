@@ -245,7 +245,8 @@ class ThreeLeverArm(Arm):
         if KO <= inner:
             what = "one lever" if a == b == c else "|OB \N{MINUS SIGN} BA| + AK"
             return (
-                f"it lies {in_words(KO)} from the base, not farther than {what} ({in_words(inner)})"
+                f"it lies {in_words(KO)} from the base, not farther than {what} "
+                f"({in_words(inner)}), which this course does not allow"
             )
         if KO > reach * (1 + ROUNDING):
             far = f"farther than three levers ({in_words(reach)})"

@@ -79,7 +79,7 @@ def plan_moving(
     ticks = np.linspace(0, ahead, TICKS + 1)
     unreached, now = arm.out_of_reach(K1), np.zeros(1)
     if unreached:
-        return no_plan(start, f"The target is out of reach: {unreached}."), now
+        return no_plan(start, f"The target is outside the allowed reach: {unreached}."), now
     goal, S = arm.least(K1, start)
     near = lever_distances(arm, start, H)
     if near.min() < distance:
@@ -125,9 +125,9 @@ def _wait(
         return None
     begin = ticks[(here & moves).argmax()]
     if begin == 0:
-        words = "The direct way is clear: the obstacle is not on it at that time."
+        words = "The direct motion is clear: the obstacle is not in its way at that time."
         return "direct", words, np.stack([start, goal]), np.array([0, takes])
-    words = f"The arm waits for {begin:.2f} s and then goes directly."
+    words = f"The arm waits for {begin:.2f} s and then moves directly."
     return "wait", words, np.stack([start, start, goal]), np.array([0, begin, begin + takes])
 
 

@@ -29,11 +29,11 @@ WORDS_HERE: Mapping[str, str] = {
     "toLeast": "Nearest moment",
     "none": "no path",
     "where": "lever {lever}, after {percent} % of the motion",
-    "sweeps": "lever {lever} sweeps H, after {percent} % of the motion",
+    "hits": "lever {lever} hits H, after {percent} % of the motion",
     "kept": "All levers stay at least {wanted} away from H. The least distance between "
-    "gripper and H is {gripper}. S = {S}°.",
+    "gripper and H is {gripper}. All joint turns add up to S = {S}°.",
     "notKept": "Too near: the levers should stay at least {wanted} away from H. The least distance "
-    "between gripper and H is {gripper}. S = {S}°.",
+    "between gripper and H is {gripper}. All joint turns add up to S = {S}°.",
     "now": "The picture shows {percent} % of the motion: lever {lever} is {distance} from H.",
     "scene": "{title}. {says}",
     "curveTitle": "distance from H, mm",
@@ -48,7 +48,8 @@ MEANT = (
     "Drag the letters, or move them with the arrow keys. Drag along the curve, or move the slider, "
     "to see the arm at another moment. Between two points, all joints turn evenly, and S is "
     "as small as possible; the percentages are fractions of S. The radius of the grey disc is the "
-    "required distance."
+    "required distance. Without via points, dotted lines join A to A1 and K to K1, the ends of the "
+    "lever after the motion."
 )
 
 
@@ -80,8 +81,8 @@ def clearance_explorer(
     title = f"From K{f' through {through}' * bool(len(vias))} to K1, past an obstacle H"
     kept = "farther than" if each.min() >= distance else "nearer than"
     summary = (
-        f"{title}: lever {lever} of {arm.name} comes as near as {in_words(each.min())}, {kept} the "
-        f"required {in_words(distance)}."
+        f"{title}: lever {lever} of {arm.name} comes within {in_words(each.min())} of H, {kept} "
+        f"the required {in_words(distance)}."
     )
     moments = along(path, np.linspace(0, 1, 25))
     page = arm_page(

@@ -37,6 +37,7 @@ SAYS: Mapping[str, str] = {
     "atEnd": "an end of its range.",
     "isLevel": "the curve of S has a horizontal tangent there.",
     "curveSays": "S for alpha from {low}° to {high}°. The least S is {least}°, at {best}°.",
+    "nowhere": "outside the allowed reach",
     "kink": "A kink at {alpha}°, where {name} keeps its value.",
 }
 
@@ -151,8 +152,8 @@ def reasons(arm: ThreeLeverArm) -> dict[str, str]:
     unequal = len(set(arm.geometry.levers)) > 1
     what = "|OB \N{MINUS SIGN} BA| + AK" if unequal else "one lever"
     return {
-        "tooNear": f"{NOWHERE}it lies {{distance}} from the base, not farther than {what} "
-        "({inner}).",
+        "tooNear": f"This course allows only points farther from the base than {what} ({{inner}}); "
+        "this one lies {distance} from it.",
         "tooFar": f"{NOWHERE}it lies {{distance}} from the base, farther than three levers "
         "({reach}).",
         "pastGamma": f"{NOWHERE}every posture for it has gamma outside 0° to 180°.",

@@ -19,7 +19,7 @@ from ..jobs.obstacles.posture_grid import NEVER, coarse_search
 from ..jobs.obstacles.ways import nearest_approach, unchecked_path
 from ..units import deg, in_words, length_unit, mm
 from . import plots
-from .camera import VIEW, extent, project, scene_data
+from .camera import extent, project, scene_data
 from .drawing import LineCollection, PolyCollection
 from .explorer import control
 from .explorer_page import PlanPage
@@ -28,6 +28,7 @@ from .palette import ALARM, INK, JOINT_STYLES, PALE, SOFT
 from .things import Mark
 from .twin import arm_data
 
+SEEN = -1.75, 0.5  # azimuth and elevation of the camera of the cube, as in plan_cube.js
 STEP = 12 * deg  # the step between neighbouring postures in the cube
 MOMENTS = 41  # number of postures of a motion in the page data
 FORBIDDEN, AWAY = 255, 254  # values of cells: too near the obstacle; free, but not reached
@@ -151,10 +152,13 @@ def _result(
 ) -> tuple[str, bool]:
     """Return the result in one sentence, and whether the distance is kept."""
     if len(path) == 1:
-        out = "K1 is out of reach" if way == "direct" else "K2, K3 and K1 are not all within reach"
-        return ("No: the arm does not move." if way == WAYS[0] else f"No: {out}."), False
+        some = "K2, K3 and K1 are not all within"
+        out = "K1 is outside" if way == "direct" else some
+        return (
+            "No: the arm does not move." if way == WAYS[0] else f"No: {out} the allowed reach."
+        ), False
     S = f"S = {abs(np.diff(path, axis=0)).sum() / deg:.0f}° (direct {known.least / deg:.0f}°)"
-    far = f"comes as near as {in_words(near)}" if near else "sweeps H"
+    far = f"comes within {in_words(near)} of H" if near else "hits H"
     kept = near >= distance
     name = known.way if way == WAYS[0] else f"{way}, {'safe' if kept else 'not safe'}"
     return f"{name[0].upper()}{name[1:]}: {S}, lever {LEVERS[lever]} {far}.", kept
@@ -175,7 +179,7 @@ def _direct(arm: ThreeLeverArm, start: Floats, target: Floats, H: Floats) -> dic
     passes = f"{' and '.join(over)} truly" if over else "no lever"
     return {
         "quadrilaterals": np.stack([[A, K, K1, A1], [B, A, A1, B1]]).tolist(),
-        "says": f"{lies}; on the direct way {passes} "
+        "says": f"{lies}; in the direct motion, {passes} "
         f"{'pass' if len(over) > 1 else 'passes'} over H.",
     }
 
@@ -244,18 +248,20 @@ def _picture(arm: ThreeLeverArm, first: Question, answer: Answer, alt: str) -> p
         plane.annotate(text, (x, y), (7, 5), textcoords="offset points")
     ends = np.pi * np.stack(np.meshgrid((0, 1), (0, 1), (0, 1), indexing="ij"), axis=-1)
     edges = [np.moveaxis(ends, j, 2).reshape(4, 2, 3) for j in range(3)]
-    lines = list(project(np.concatenate(edges)))
+    lines = list(project(np.concatenate(edges), SEEN))
     cube.add_collection(LineCollection(lines, color="0.75", linewidth=0.8))
     faces, shades = _body(answer["cube"] == FORBIDDEN)
     cube.add_collection(
-        PolyCollection(list(project(faces)), facecolors=shades, linewidth=0, antialiased=False)
+        PolyCollection(
+            list(project(faces, SEEN)), facecolors=shades, linewidth=0, antialiased=False
+        )
     )
-    cube.plot(*project(answer["curve"]).T, "^", color=green, markersize=3)
-    path = project(np.array(answer["path"]))
+    cube.plot(*project(answer["curve"], SEEN).T, "^", color=green, markersize=3)
+    path = project(np.array(answer["path"]), SEEN)
     cube.plot(*path.T, color=orange, linewidth=2)
     cube.plot(*path[0], "o", color=INK)
-    for text, place in (("γ", (90, 0, -12)), ("β", (192, 90, 0)), ("α", (-12, 0, 90))):
-        x, y = project(np.array(place) * deg)
+    for text, place in (("γ", (90, 0, -12)), ("β", (192, 90, 0)), ("α", (-24, 0, 90))):
+        x, y = project(np.array(place) * deg, SEEN)
         cube.annotate(text, (x, y), ha="center", va="center")
     for ax in (plane, cube):
         ax.set_aspect("equal")
@@ -268,7 +274,7 @@ def _body(blocked: Bools) -> tuple[Floats, list[str]]:
     """Return the visible faces of the forbidden body, the farthest first: corners (n, 4, 3) in
     radians, and their colours.
     """
-    (ca, ce), (sa, se) = np.cos(VIEW), np.sin(VIEW)
+    (ca, ce), (sa, se) = np.cos(SEEN), np.sin(SEEN)
     toward = np.array([ce * ca, ce * sa, se])
     faces, shades = [], []
     for axis, shade in enumerate(("0.62", "0.7", "0.82")):

@@ -193,8 +193,8 @@ def too_near(path: Floats, places: Floats, name: str, distance: float) -> list[t
     gripper = float(np.hypot(*(points[:, None] - places).T).min())
     corners = min(float(distances(path, place).min()) for place in places)
     says = (
-        f"Between path[{part}] and path[{part + 1}], lever {('OB', 'BA', 'AK')[lever]} comes as "
-        f"near as {near} mm to {name}; the task asks for {wanted} mm."
+        f"Between path[{part}] and path[{part + 1}], lever {('OB', 'BA', 'AK')[lever]} comes "
+        f"within {near} mm of {name}; the task asks for {wanted} mm."
     )
     if corners >= distance:
         says += f" Every posture of the path stays {corners / mm:.0f} mm away: look between them."

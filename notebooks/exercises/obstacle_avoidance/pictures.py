@@ -20,7 +20,20 @@ from robokin.show.palette import (
     SOFT,
 )
 
-from .predictions import FAR, LEVER, PASSED, SAMPLED, SEEN, p3, p5, p6, p7, p8, swept_by_last
+from .predictions import (
+    FAR,
+    LEVER,
+    PASSED,
+    SAMPLED,
+    SEEN,
+    drawings,
+    p3,
+    p5,
+    p6,
+    p7,
+    p8,
+    swept_by_last,
+)
 from .shared import ARM, K1, START, WANTED, Floats, direct, distances, drawing, sampled
 
 
@@ -36,18 +49,12 @@ def plane(ax: Any, low: tuple[float, float], high: tuple[float, float], title: s
 
 def p1_view() -> Any:
     fig = figure(
-        "The same quadrilateral four times: as drawn, turned by a quarter, mirrored, and upside "
-        "down. The obstacle is in its middle each time, and the test finds it in the first only.",
-        height=3.2,
+        "The same quadrilateral eight times: turned by 0, 90, 180 and 270 degrees, as drawn and "
+        "mirrored. The obstacle is in its middle each time, and the test finds it in the first "
+        "only.",
+        height=4.6,
     )
-    drawn = np.array([(-0.5, 0.4), (0.45, 0.6), (0.55, -0.6), (-0.4, -0.5)])
-    shapes = {
-        "as drawn": drawn,
-        "a quarter turn": drawn @ np.array([(0, 1), (-1, 0)]),
-        "mirrored": drawn * (-1, 1),
-        "upside down": drawn * (1, -1),
-    }
-    for ax, (name, corners) in zip(fig.subplots(1, 4), shapes.items(), strict=True):
+    for ax, (name, corners) in zip(fig.subplots(2, 4).flat, drawings().items(), strict=True):
         ax.fill(*corners.T, facecolor=FIRST_AREA)
         for k, (label, color, dash) in enumerate((("AK", FIRST, "-"), ("A1K1", SECOND, ":"))):
             side = corners[[0, 1]] if k == 0 else corners[[3, 2]]
@@ -60,7 +67,7 @@ def p1_view() -> Any:
     fig.legend(
         handles=fig.axes[0].get_legend_handles_labels()[0], loc="upper right", ncols=2, fontsize=9
     )
-    fig.suptitle("The test finds H in one of four positions of the drawing")
+    fig.suptitle("The test finds H in one of the eight drawings")
     fig.tight_layout()
     return fig
 
@@ -185,7 +192,7 @@ def p7_view() -> str:
     return (
         f"Of {facts['count']} tasks, with the circle of {facts['r']:.0f} mm: {facts['keep']} keep "
         f"{facts['wanted']:.0f} mm, {facts['near']} come nearer, {facts['out']} are out of reach."
-        f"\nWith the circle of {WANTED / mm:.0f} mm, a lever sweeps the obstacle in 47 tasks, "
+        f"\nWith the circle of {WANTED / mm:.0f} mm, a lever hits the obstacle in 47 tasks, "
         f"but in 53 no lever does. All {facts['keep']} are among these 53."
     )
 

@@ -35,15 +35,24 @@ def p1() -> dict[str, Any]:
         H = rng.uniform(corners.min(axis=0), corners.max(axis=0))
         if count(corners, H) % 2 == 1:
             found.append(drawing(corners, H))
-    own = []  # the result of the test for each H inside, in the sample of `sampled_tasks`
-    for start, target, H in sampled_tasks():
-        (A, K_), (A1, K1_) = ARM.points(direct(start, target))[:, 2:]
-        if count([A, K_, K1_, A1], H) % 2 == 1:
-            own.append(drawing([A, K_, K1_, A1], H))
-    guesses = {"nearly all": 98, "half": 50, "few": 5, "a quarter": 25}
+    seen = sum(drawing(corners, np.zeros(2)) for corners in drawings().values())
+    guesses = {"nearly all": len(drawings()), "half": 4, "few": 1, "a quarter": 2}
     told = {"tasks": many, "inside": len(found), "found": sum(found)}
-    told |= {"own": len(own), "own_found": sum(own)}
-    return told | {"right": nearest(guesses, 100 * sum(found) / len(found))}
+    told |= {"seen": seen, "drawings": len(drawings())}
+    return told | {"right": nearest(guesses, seen)}
+
+
+DRAWN = np.array([(-0.5, 0.4), (0.45, 0.6), (0.55, -0.6), (-0.4, -0.5)])  # m: A, K, K1, A1
+
+
+def drawings() -> dict[str, Floats]:
+    """The drawing, turned by quarters, as it is and mirrored; H is in its middle, at (0, 0)."""
+    found = {}
+    for shape, corners in (("drawn", DRAWN), ("mirrored", DRAWN * (-1, 1))):
+        for quarters in range(4):
+            found[f"{shape}, {90 * quarters}°"] = corners
+            corners = corners @ np.array([(0, 1), (-1, 0)])
+    return found
 
 
 def swept_by_last(start: Floats, end: Floats, x: Floats, y: Floats) -> NDArray[np.bool_]:

@@ -168,13 +168,14 @@ def plan(
     H = None if obstacle is None else read_obstacles(obstacle, "obstacle")
     unreached = arm.out_of_reach(K1)
     if unreached:
-        return no_plan(start, f"The target is out of reach: {unreached}.")
+        return no_plan(start, f"The target is outside the allowed reach: {unreached}.")
     goal, S = arm.least(K1, start)
     least = float(S)
     direct = np.stack([start, goal])
     if H is None:
         far = np.full((1, 3), np.inf)
-        return Plan("direct", "The direct way is clear: no obstacle is given.", direct, far, least)
+        words = "The direct motion is clear: no obstacle is given."
+        return Plan("direct", words, direct, far, least)
     too_near = _too_near(arm, start, K1, H, distance)
     if too_near:
         hint = f"No path keeps a distance of {in_words(distance)}; ask for a smaller one."
@@ -182,19 +183,26 @@ def plan(
     clear = motion_clearances(arm, start[None], goal[None], H)
     if clear.min() >= distance:
         none = "the obstacle is not" if len(H) == 1 else "no obstacle is"
-        return Plan("direct", f"The direct way is clear: {none} on it.", direct, clear, least)
-    words = f"On the direct way {_nearest(arm, clear, H)}."
-    by_points, more = _by_via_points(arm, direct, K1, H, distance)
-    words += more
-    if by_points is not None:
+        words = f"The direct motion is clear: {none} in its way."
+        return Plan("direct", words, direct, clear, least)
+    words = f"In the direct motion, {_nearest(arm, clear, H)}."
+    by_points = best_circle(arm, direct, K1, H, distance)
+    if by_points is None:
+        words += " The via points K2 and K3 are not both within the allowed reach."
+    else:
         path, clear, radius = by_points
-        return Plan("via points", words, path, clear, least, radius)
+        named = _named(H, _in_the_way(arm, direct, H, distance))
+        circle = f"the via points K2 and K3, {in_words(radius)} from {named}"
+        if clear.min() >= distance:
+            words += f" T{circle[1:]}, lead round it."
+            return Plan("via points", words, path, clear, least, radius)
+        words += f" Through {circle}, {_nearest(arm, clear, H)}."
     found = way_round(arm, start, K1, H[:, 0], distance)
     if found is not None:
-        words += " A search among postures finds a way."
+        words += " A search among postures finds a path."
         clear = motion_clearances(arm, found[:-1], found[1:], H)
         return Plan("search", words, found, clear, least)
-    words += f" A search among postures in steps of {STEP / deg:.0f}° finds no way that keeps"
+    words += f" A search among postures in steps of {STEP / deg:.0f}° finds no path that keeps"
     return no_plan(start, f"{words} {in_words(distance)}.", least)
 
 
@@ -205,6 +213,29 @@ def along(path: ArrayLike, s: ArrayLike) -> Floats:
     path, s = read_path(path), np.clip(floats(s, "s"), 0, 1)
     S = np.concatenate([[0.0], abs(np.diff(path, axis=0)).sum(axis=-1).cumsum()])
     return np.stack([np.interp(s * S[-1], S, path[:, i]) for i in range(3)], axis=-1)
+
+
+def best_circle(
+    arm: ThreeLeverArm, direct: Floats, K1: Floats, H: Floats, distance: float
+) -> tuple[Floats, Floats, float] | None:
+    """Return the path through via points on the first circle for which it keeps the distance, or
+    otherwise on the circle that leaves the most room, with its clearance and the radius; None if no
+    circle has both via points within reach. `direct` (2, 3) is the direct motion. The circles are
+    around the first of the obstacles H (m, 1, 2) that is in its way.
+    """
+    first = _in_the_way(arm, direct, H, distance)
+    radii = np.array([each for each in CIRCLES if each * arm.lever > distance]) * arm.lever
+    radii = np.unique(np.append(radii, max(distance, CIRCLES[0] * arm.lever)))
+    paths = _via_paths(arm, direct[0], K1, H[first, 0], radii)
+    reached = ~np.isnan(paths).any(axis=(1, 2))
+    if not reached.any():
+        return None
+    paths, radii = paths[reached], radii[reached]
+    clears = motion_clearances(arm, paths[:, :-1].reshape(-1, 3), paths[:, 1:].reshape(-1, 3), H)
+    clears = clears.reshape(-1, 3, 3)
+    room = clears.min(axis=(1, 2))
+    best = int((room >= distance).argmax() if room.max() >= distance else room.argmax())
+    return paths[best], clears[best], float(radii[best])
 
 
 def no_plan(start: Floats, words: str, least: float = np.nan) -> Plan:
@@ -233,31 +264,6 @@ def _too_near(arm: ThreeLeverArm, start: Floats, K1: Floats, H: Floats, distance
     return ""
 
 
-def _by_via_points(
-    arm: ThreeLeverArm, direct: Floats, K1: Floats, H: Floats, distance: float
-) -> tuple[tuple[Floats, Floats, float] | None, str]:
-    """Return the path through via points on the first circle for which it keeps the distance, with
-    its clearance and the radius, or None; also return the sentence about it for the plan.
-    """
-    first = _in_the_way(arm, direct, H, distance)
-    radii = np.array([each for each in CIRCLES if each * arm.lever > distance]) * arm.lever
-    radii = np.unique(np.append(radii, max(distance, CIRCLES[0] * arm.lever)))
-    paths = _via_paths(arm, direct[0], K1, H[first, 0], radii)
-    reached = ~np.isnan(paths).any(axis=(1, 2))
-    if not reached.any():
-        return None, " The via points K2 and K3 are not both within reach."
-    paths, radii = paths[reached], radii[reached]
-    clears = motion_clearances(arm, paths[:, :-1].reshape(-1, 3), paths[:, 1:].reshape(-1, 3), H)
-    clears = clears.reshape(-1, 3, 3)
-    room = clears.min(axis=(1, 2))
-    best = int((room >= distance).argmax() if room.max() >= distance else room.argmax())
-    radius = float(radii[best])
-    circle = f"the via points K2 and K3, {in_words(radius)} from {_named(H, first)}"
-    if room[best] >= distance:
-        return (paths[best], clears[best], radius), f" T{circle[1:]}, lead round it."
-    return None, f" By {circle}, {_nearest(arm, clears[best], H)}."
-
-
 def _named(H: Floats, which: int) -> str:
     return "the obstacle" if len(H) == 1 else f"obstacle {which + 1}"
 
@@ -266,11 +272,10 @@ def _nearest(arm: ThreeLeverArm, clear: Floats, H: Floats) -> str:
     least = clear.min(axis=0)
     # if two levers are equally near, at their common joint, take the first
     lever = LEVERS[(least <= least.min() + TOLERANCE * arm.lever).argmax()]
-    one = len(H) == 1
+    what = "the obstacle" if len(H) == 1 else "an obstacle"
     if not least.min():
-        return f"lever {lever} sweeps {'the' if one else 'an'} obstacle"
-    near = f"lever {lever} comes as near as {in_words(least.min())}"
-    return near if one else f"{near} to an obstacle"
+        return f"lever {lever} hits {what}"
+    return f"lever {lever} comes within {in_words(least.min())} of {what}"
 
 
 def _in_the_way(arm: ThreeLeverArm, direct: Floats, H: Floats, distance: float) -> int:

@@ -7,7 +7,7 @@ import numpy as np
 from ..._arrays import Floats
 from ...arms.planar import ThreeLeverArm
 from .collision import lever_distances
-from .planner import along, via_path
+from .planner import along, best_circle
 
 
 def unchecked_path(
@@ -15,16 +15,18 @@ def unchecked_path(
 ) -> Floats:
     """The path (k, 3) from posture q0 to the target for the way "direct" or "via points", whether
     it is safe or not. It contains only q0, (1, 3), if there is no such path. The via points are
-    `distance` metres from the obstacle H (2,), or L/7 if that is more.
+    those of `best_circle`, which the words of a plan are about.
     """
+    direct = np.stack([q0, arm.least(K1, q0)[0]])
+    if np.isnan(direct).any():
+        return q0[None]
     if way == "direct":
-        path = np.stack([q0, arm.least(K1, q0)[0]])
-    else:
-        try:
-            path = via_path(arm, q0, K1, H, max(distance, arm.lever / 7))
-        except ValueError:  # H coincides with K or K1
-            return q0[None]
-    return q0[None] if np.isnan(path).any() else path
+        return direct
+    try:
+        found = best_circle(arm, direct, K1, H[None, None], distance)
+    except ValueError:  # H coincides with K or K1
+        return q0[None]
+    return q0[None] if found is None else found[0]
 
 
 def nearest_approach(

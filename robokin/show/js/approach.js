@@ -34,7 +34,7 @@ const SAMPLES = 240,
  * @param {ThreeLeverArm} arm
  * @param {number[]} q
  */
-function jointsOf({geometry: {levers}}, q) {
+export function jointsOf({geometry: {levers}}, q) {
   /** @type {Pixel[]} */
   const points = [[0, 0]];
   let direction = Math.PI;

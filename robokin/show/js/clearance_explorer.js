@@ -2,7 +2,7 @@
 // near the levers come to H during the motion. All text and the arm data come from Python
 // (explorer_page.py: ClearancePage).
 
-import {approachOf, motionOf, nearestAt, postureAt} from "./approach.js";
+import {approachOf, jointsOf, motionOf, nearestAt, postureAt} from "./approach.js";
 import {drawApproach} from "./approach_curve.js";
 import {fill, inWords} from "./blanks.js";
 import {clear, colors, number, spot, stroke} from "./canvas.js";
@@ -177,7 +177,7 @@ function told({words: says}, found) {
   const touches = distance < TOUCHES;
   return {
     distance: facts.distance,
-    where: fill(touches ? says.sweeps : says.where, facts),
+    where: fill(touches ? says.hits : says.where, facts),
     kept,
     says: fill(kept ? says.kept : says.notKept, facts) + (now === nearest ? "" : ` ${shown}`),
     curve: fill(says.curveSays, facts),
@@ -210,17 +210,22 @@ function thingsOf({arm, q, target}, {obstacle, vias}, found) {
  * @param {Found} found
  * @returns {Explored}
  */
-function armOf({arm: {name, chain}, q, distance}, state, found) {
+function armOf({arm, q, distance, words}, state, found) {
+  const {name, chain} = arm;
   /** @type {Draw} */
   const circle = (g, {to, scale}) =>
     spot(g, to(state.obstacle), distance * scale, clear(colors.ghost, 0.25), colors.ghost, 1);
-  if (found.why !== undefined) return {name, chain, q, faded: true, under: circle};
+  if (found.why !== undefined) return {name, chain, q, faded: words.none, under: circle};
   const {motion, now} = found,
-    {path} = motion;
+    {path} = motion,
+    shown = postureAt(motion, now.share);
   return {
     name,
     chain,
-    q: postureAt(motion, now.share),
+    q: shown,
+    labels: jointsOf(arm, shown)
+      .slice(0, 3)
+      .map((at, k) => ({text: "OBA"[k], at: [...at, 0], color: colors.ink})),
     ghosts: [
       {q: path[0], past: false},
       {q: path[path.length - 1], past: true},
@@ -228,6 +233,7 @@ function armOf({arm: {name, chain}, q, distance}, state, found) {
     under(g, camera) {
       circle(g, camera);
       drawSwept(found)(g, camera);
+      if (!state.vias.length) drawSides(motion)(g, camera);
     },
     over: (g, {to}) => stroke(g, [to(state.obstacle), to([...now.place, 0])], colors.near, 2),
   };
@@ -251,6 +257,19 @@ const drawSwept =
       color,
       2,
     );
+  };
+
+/**
+ * Draws the sides A A1 and K K1 of the quadrilateral of lever AK: the others are the lever before
+ * and after the motion.
+ * @type {(motion: Motion) => Draw}
+ */
+const drawSides =
+  ({points}) =>
+  (g, {to}) => {
+    const after = points[points.length - 1];
+    for (const k of [2, 3])
+      stroke(g, [to([...points[0][k], 0]), to([...after[k], 0])], colors.ink, 1.4, [2, 4]);
   };
 
 /**

@@ -69,6 +69,14 @@ export function handleLayer(canvas, camera, hold, changed) {
       hold(id !== null);
     },
   };
+  // While a letter has the focus, its coordinates are in a corner of the scene.
+  const tell = () => {
+    const one = handles.find(({node, look}) => look === MARK && node.matches(":focus"));
+    if (one) layer.dataset.at = `${one.mark}: ${one.value()}`;
+    else delete layer.dataset.at;
+  };
+  layer.addEventListener("focusin", tell);
+  layer.addEventListener("focusout", tell);
 
   return {
     layer,
@@ -104,6 +112,7 @@ export function handleLayer(canvas, camera, hold, changed) {
         .sort((a, b) => Number(b.id === held) - Number(a.id === held));
       for (const handle of first)
         taken.push(placed(handle, cam, handle.id === held ? null : taken, [width, height], big));
+      tell();
       const size = big ? 44 : 26;
       return taken.map(([x, y]) => [x - size / 2, y - size / 2, size, size]);
     },
@@ -206,6 +215,7 @@ function placed(handle, camera, taken, [width, height], big) {
 }
 
 const SCALE_ROOM = 20; // px: the scale of the grid stands below all handles
+const MARK = "rk-mark"; // the look of a handle with a letter
 const TAP = 4; // px: a pointer movement shorter than this counts as a tap
 /** @type {Object<string, [number, number]>} */
 const STEPS = {ArrowLeft: [-1, 0], ArrowRight: [1, 0], ArrowUp: [0, 1], ArrowDown: [0, -1]};
@@ -310,7 +320,7 @@ export function letterHandle({letter, name, color, unit, step}, at, take) {
   return {
     id: letter,
     name,
-    look: "rk-mark",
+    look: MARK,
     mark: letter,
     color,
     at,

@@ -95,7 +95,7 @@ function leversExplorer(stage, data) {
         point(says.target, state.place),
         ...rest.map(({place}) => point(says.nextTarget, place)),
       ];
-      return [armOf(state, costs)];
+      return [armOf(state, costs, says.nowhere)];
     },
     [canvas],
     () => {
@@ -272,8 +272,9 @@ function heard({words: says, curve}, {low, high, kinks, best, fewest}) {
  * The arm with some other postures that reach the point, and the previous posture.
  * @param {State} state
  * @param {?Costs} costs
+ * @param {string} nowhere  the words if none reaches it
  */
-function armOf({arm, before, place}, costs) {
+function armOf({arm, before, place}, costs, nowhere) {
   /** @type {(alpha: number) => number[]} */
   const posture = alpha => family(arm, {place}, alpha);
   const alphas = costs
@@ -283,7 +284,7 @@ function armOf({arm, before, place}, costs) {
     name: arm.name,
     chain: arm.chain,
     q: costs ? posture(costs.alpha) : before,
-    faded: !costs,
+    faded: !costs && nowhere,
     ghosts: [...alphas.map(alpha => ({q: posture(alpha), past: false})), {q: before, past: true}],
   };
 }

@@ -30,6 +30,7 @@ const SLOW = 100;
  *
  * While the view is inactive, its controls and handles are disabled, and a sentence says why.
  * Handles that also react to taps (`rk-taps`) stay enabled; they check `awake` before they move.
+ * When it becomes inactive, its element gets the event `robokin-slept`.
  * `root.dataset` contains `awake` while it is active, and the numbers of the last question `asked`
  * and of the last question `answered`.
  *
@@ -117,6 +118,7 @@ class Questions {
     this.takeBack();
     this.port = null;
     this.stir(false, this.words.asleep);
+    this.root.dispatchEvent(new CustomEvent("robokin-slept"));
   }
 
   /** @param {Question} question */

@@ -13,7 +13,7 @@ import {control} from "./elements.js";
 /** @typedef {{depth: number, draw: () => void}} Thing */
 /** @typedef {{g: Context, cam: Camera, put: (at: Point, draw: () => void) => void}} Pen */
 
-const SEEN = {flat: null, view: [-1.05, 0.38]}; // the view on opening
+const SEEN = {flat: null, view: [-1.75, 0.5]}; // on opening: target and path are in front of the body
 
 /**
  * @param {string} name  its name for a screen reader

@@ -60,8 +60,8 @@ import {point} from "./mark.js";
  * @property {number} before  time of the last step, ms
  */
 
-const STEPS = 9,
-  MOMENTS = 16; // steps of search and motion per second
+const SEARCH = 5, // seconds: a search from its first step to its last
+  MOMENTS = 16; // moments of the motion per second
 
 /**
  * Builds the view in every placeholder with this id.
@@ -100,7 +100,13 @@ function planExplorer(stage, root, id, data) {
     stage.changed();
   }
   tell();
+  let slept = false;
+  root.addEventListener("robokin-slept", () => {
+    slept = true;
+    stage.changed();
+  });
   root.addEventListener("robokin-wake", () => {
+    slept = false;
     asked = JSON.stringify(now.shown.about);
     stage.changed();
   });
@@ -116,6 +122,8 @@ function planExplorer(stage, root, id, data) {
 
   stage.run(
     () => {
+      // without Python, the letters go back to where they were in the result that is shown
+      if (slept) Object.assign(state, opened(now.shown.about));
       const question = inputs.question(),
         text = JSON.stringify(question);
       if (text !== asked) live.ask(question);
@@ -167,7 +175,7 @@ function pass(now) {
     time = performance.now(),
     passed = Math.min(0.2, (time - now.before) / 1000);
   now.before = time;
-  if (now.wave < most) now.wave = Math.min(most, now.wave + STEPS * passed);
+  if (now.wave < most) now.wave = Math.min(most, now.wave + (most / SEARCH) * passed);
   else now.moment = Math.min(lastOf(now), now.moment + MOMENTS * passed);
   if (now.wave >= most && now.moment >= lastOf(now)) now.playing = false;
 }

@@ -26,7 +26,7 @@ import {compass} from "./triad.js";
  * @property {number[]} q  radians and metres
  * @property {(?Point)[]} [trace]  the tool's places, null at breaks; `tail`: those passed so far
  * @property {(?Point)[]} [tail]
- * @property {boolean} [faded]  whether there is no solution here
+ * @property {boolean | string} [faded]  whether there is no solution here, or words that say so
  * @property {?{place: Point, text: string}} [near]  where the path is nearest to "via"
  * @property {{q: number[], past: boolean}[]} [ghosts]  other postures, faint; dashed if they
  *   exceed a limit (`past`)
@@ -272,9 +272,11 @@ function drawSpace(pen, arms, [x, y, w, h], named) {
   const handles = all.flatMap(one => one.handles?.(one.cam) ?? []);
   compass(g, cam, compassAt([x, y, w, h], handles));
   if (named) write(g, first.name, x + 10, y + 18, colors.ink, 13, "left", "600");
-  if (arms.some(arm => arm.faded)) {
-    const at = /** @type {Pixel} */ ([x + w / 2, y]);
-    labels.push({text: "no solution here", at, color: colors.alarm, weight: "600", away: [0, 1]});
+  const faded = arms.find(arm => arm.faded)?.faded;
+  if (faded) {
+    const at = /** @type {Pixel} */ ([x + w / 2, y]),
+      text = faded === true ? "no solution here" : faded;
+    labels.push({text, at, color: colors.alarm, weight: "600", away: [0, 1]});
   }
   if (first.row && arms.length === 1) {
     const at = /** @type {Pixel} */ ([x + 3, y + h - 22]);
