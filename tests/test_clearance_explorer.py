@@ -111,9 +111,7 @@ def shows(shown):
     assert seen.says.startswith("All levers stay" if least.min() >= KEPT else "Too near")
     gripper = np.hypot(*(ARM.points(q)[:, 3] - place).T).min()
     S = abs(np.diff(path, axis=0)).sum() / deg
-    told = re.search(
-        r"H is ([\d.]+) mm\. All joint turns add up to S = ([\d.]+)°", seen.says
-    ).groups()
+    told = re.search(r"H is ([\d.]+) mm\. All joint turns add up to S = ([\d.]+)°", seen.says)
     assert [float(x) for x in told.groups()] == pytest.approx([gripper / mm, S], abs=0.3)
     near = far(ARM, along(path, int(percent) / 100 + np.linspace(-0.006, 0.006, 25)), place).min()
     assert near == pytest.approx(least.min(), abs=5 * mm)

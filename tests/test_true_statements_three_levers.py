@@ -47,7 +47,7 @@ def test_two_levers_are_in_line_at_both_ends_of_the_range():
 
 def test_range_disappears_within_reach_as_section_3_says():
     x, first, last = numbers(
-        r"set x to (\S+) and move the slider y from (\S+) down to (\S+): the curve plotted against "
+        r"set x to (\S+) and move the y slider from (\S+) down to (\S+): the curve plotted against "
         r"\$\\alpha\$ gets shorter and disappears",
         flat("09", "limits-look"),
     )

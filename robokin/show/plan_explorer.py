@@ -28,7 +28,7 @@ from .palette import ALARM, INK, JOINT_STYLES, PALE, SOFT
 from .things import Mark
 from .twin import arm_data
 
-SEEN = -1.75, 0.5  # azimuth and elevation of the camera of the cube, as in plan_cube.js
+SEEN = -1.6, 0.4  # azimuth and elevation of the camera of the cube, as in plan_cube.js
 STEP = 12 * deg  # the step between neighbouring postures in the cube
 MOMENTS = 41  # number of postures of a motion in the page data
 FORBIDDEN, AWAY = 255, 254  # values of cells: too near the obstacle; free, but not reached

@@ -122,7 +122,6 @@ def p6() -> Mapping[str, Any]:
         "inner angle": distance(np.pi - STOP) / mm,
         "lab's stop": distance(HIGH[1]) / mm,
         "right angle": distance(np.pi / 2) / mm,
-        "stretched": (L1 + L2) / mm,
         "zero": 0.0,
     }
     bends = np.linspace(-STOP, STOP, 2401)

@@ -69,14 +69,8 @@ export function handleLayer(canvas, camera, hold, changed) {
       hold(id !== null);
     },
   };
-  // While a letter has the focus, its coordinates are in a corner of the scene.
-  const tell = () => {
-    const one = handles.find(({node, look}) => look === MARK && node.matches(":focus"));
-    if (one) layer.dataset.at = `${one.mark}: ${one.value()}`;
-    else delete layer.dataset.at;
-  };
-  layer.addEventListener("focusin", tell);
-  layer.addEventListener("focusout", tell);
+  const tell = () => tellFocused(layer, handles);
+  for (const event of ["focusin", "focusout"]) layer.addEventListener(event, tell);
 
   return {
     layer,
@@ -117,6 +111,17 @@ export function handleLayer(canvas, camera, hold, changed) {
       return taken.map(([x, y]) => [x - size / 2, y - size / 2, size, size]);
     },
   };
+}
+
+/**
+ * While a letter has the focus, its coordinates are in a corner of the scene.
+ * @param {HTMLElement} layer
+ * @param {Shown[]} handles
+ */
+function tellFocused(layer, handles) {
+  const one = handles.find(({node, look}) => look === MARK && node.matches(":focus"));
+  if (one) layer.dataset.at = `${one.mark}: ${one.value()}`;
+  else delete layer.dataset.at;
 }
 
 /**

@@ -13,7 +13,8 @@ import {control} from "./elements.js";
 /** @typedef {{depth: number, draw: () => void}} Thing */
 /** @typedef {{g: Context, cam: Camera, put: (at: Point, draw: () => void) => void}} Pen */
 
-const SEEN = {flat: null, view: [-1.75, 0.5]}; // on opening: target and path are in front of the body
+// on opening: the target and the path are in front of the body
+const SEEN = {flat: null, view: [-1.6, 0.4]};
 
 /**
  * @param {string} name  its name for a screen reader

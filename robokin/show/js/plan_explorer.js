@@ -80,11 +80,12 @@ export const explore = (id, data) =>
 function planExplorer(stage, root, id, data) {
   const {words: says, arm} = data,
     first = /** @type {Question} */ (data.question);
-  const state = opened(first);
-  const shown = read(data, /** @type {Answer} */ (joinArrays(data.first)), first);
+  const state = opened(first),
+    shown = read(data, /** @type {Answer} */ (joinArrays(data.first)), first);
   /** @type {Now} */
   const now = {shown, wave: shown.most, moment: 0, playing: false, before: 0};
-  let asked = JSON.stringify(first);
+  let asked = JSON.stringify(first),
+    slept = false;
   const inputs = inputsOf(stage, data, state),
     result = element("p", {class: "rk-result"});
   const cube = cubeView(says.cube, stage.changed),
@@ -100,26 +101,19 @@ function planExplorer(stage, root, id, data) {
     stage.changed();
   }
   tell();
-  let slept = false;
-  root.addEventListener("robokin-slept", () => {
-    slept = true;
+  const stirred = (/** @type {boolean} */ sleeps) => () => {
+    slept = sleeps;
+    if (!sleeps) asked = JSON.stringify(now.shown.about);
     stage.changed();
-  });
-  root.addEventListener("robokin-wake", () => {
-    slept = false;
-    asked = JSON.stringify(now.shown.about);
-    stage.changed();
-  });
+  };
+  root.addEventListener("robokin-slept", stirred(true));
+  root.addEventListener("robokin-wake", stirred(false));
   /** @type {(answer: Answer, about: Question) => void} */
   const hear = (answer, about) => {
-    const whole = now.wave >= now.shown.most;
-    now.shown = read(data, answer, about);
-    now.wave = whole ? now.shown.most : Math.min(now.wave, now.shown.most);
-    now.moment = Math.min(now.moment, lastOf(now));
+    take(now, read(data, answer, about));
     tell();
   };
   const live = kernelOf(root, id, says, hear);
-
   stage.run(
     () => {
       // without Python, the letters go back to where they were in the result that is shown
@@ -142,6 +136,17 @@ function planExplorer(stage, root, id, data) {
       if (now.playing) stage.changed();
     },
   );
+}
+
+/**
+ * @param {Now} now
+ * @param {Now["shown"]} next  the result to show from now on
+ */
+function take(now, next) {
+  const whole = now.wave >= now.shown.most;
+  now.shown = next;
+  now.wave = whole ? next.most : Math.min(now.wave, next.most);
+  now.moment = Math.min(now.moment, lastOf(now));
 }
 
 /**

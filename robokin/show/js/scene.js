@@ -288,25 +288,21 @@ function drawSpace(pen, arms, [x, y, w, h], named) {
 }
 
 /**
- * The centre of the directions of the base: at the lower right, or at the upper right if a handle is
- * there.
+ * The centre of the base's directions: at the lower right, or higher if a handle is there.
  * @param {Box} cell
  * @param {Box[]} handles
  * @returns {Pixel}
  */
 function compassAt([x, y, w, h], handles) {
-  const right = x + w - COMPASS.room,
-    low = y + h - COMPASS.room;
-  const hidden = handles.some(
-    ([left, top, width, height]) =>
-      left + width > right - COMPASS.reach &&
-      top + height > low - COMPASS.reach &&
-      top < low + COMPASS.reach &&
-      left < right + COMPASS.reach,
+  const [right, low] = [x + w - 34, y + h - 34];
+  const taken = handles.some(
+    ([left, top, wide, high]) =>
+      Math.abs(left + wide / 2 - right) < NEAR + wide / 2 &&
+      Math.abs(top + high / 2 - low) < NEAR + high / 2,
   );
-  return [right, hidden ? y + 60 : low];
+  return [right, taken ? y + 60 : low];
 }
-const COMPASS = {room: 34, reach: 28}; // px: the centre's distance from the edges, and its radius
+const NEAR = 28; // px: the directions reach this far from their centre
 
 /**
  * Draws the floor's grid; with `over`, a translucent floor on top of what is already drawn.
