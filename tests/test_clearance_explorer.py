@@ -150,6 +150,7 @@ def test_keys_move_letters_by_1_and_10_cm(opened):
     layer = shown.rk.locator(".rk-handles")
     assert layer.get_attribute("data-at") == "K3: 1.050, 1.100 m"
     shown.rk.locator("[data-handle=H]").focus()
+    shown.look()
     assert layer.get_attribute("data-at") == "H: 1.110, 1.390 m"
     shows(shown)
 

@@ -122,8 +122,8 @@ def test_page_reports_the_lost_steps_that_python_finds(opened):
     assert told == ours > 0
     facts = shown.look().rows[-5:]
     start = code["motor"].start_frequency(0.01, 1e-6)
-    assert facts[0][1] == "90°" and facts[1][1].startswith("28.3 mN m")
-    assert facts[3][1] == f"{start:.0f} pulses/s" and facts[4][1] == "333 pulses/s"
+    assert facts[0][1] == "90°" and facts[1][1].startswith("28.3\u00a0mN\u00a0m")
+    assert facts[3][1] == f"{start:.0f}\u00a0pulses/s" and facts[4][1] == "333\u00a0pulses/s"
     shown.choose("rotor, feed", 2)
     told, ours, code = lost(shown)
     assert told == ours and code["motor"].rotor == "passive" and code["motor"].windings == 4

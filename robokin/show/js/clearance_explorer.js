@@ -9,7 +9,7 @@ import {clear, colors, number, spot, stroke} from "./canvas.js";
 import {scrubbing} from "./controls.js";
 import {copyButton} from "./copy.js";
 import {element, waiting} from "./elements.js";
-import {letterHandle} from "./handles.js";
+import {letterHandle} from "./letters.js";
 import {fk, origin} from "./kinematics.js";
 import {least, outside} from "./levers.js";
 import {point} from "./mark.js";

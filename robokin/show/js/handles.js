@@ -2,13 +2,11 @@
 // does not scroll the page, the keyboard can reach it, and a screen reader can name it.
 
 import {cross, dot, plus} from "./kinematics.js";
-import {number} from "./canvas.js";
 import {handleChooser, large} from "./chooser.js";
 import {element, control} from "./elements.js";
 
 /** @import {Box, Color, Pixel, Point} from "./canvas.js" */
 /** @import {Camera} from "./camera.js" */
-/** @import {Unit} from "./page.js" */
 
 /**
  * The distance in metres between a thing and the arrows and arcs that move it, for a camera. In
@@ -33,6 +31,7 @@ export const reachOf = camera => (large() ? 84 : 60) / camera.scale;
  * @property {(right: number, up: number, big: boolean) => void} step  reacts to an arrow key
  * @property {() => void} home  moves it back to where it began
  * @property {() => void} [tap]  reacts to a tap, a click, Enter and Space
+ * @property {(layer: HTMLElement, focused: boolean) => void} [tell]  writes on the layer
  */
 /** @typedef {ReturnType<typeof handleLayer>} HandleLayer */
 
@@ -69,8 +68,7 @@ export function handleLayer(canvas, camera, hold, changed) {
       hold(id !== null);
     },
   };
-  const tell = () => tellFocused(layer, handles);
-  for (const event of ["focusin", "focusout"]) layer.addEventListener(event, tell);
+  for (const event of ["focusin", "focusout"]) layer.addEventListener(event, changed);
 
   return {
     layer,
@@ -106,22 +104,11 @@ export function handleLayer(canvas, camera, hold, changed) {
         .sort((a, b) => Number(b.id === held) - Number(a.id === held));
       for (const handle of first)
         taken.push(placed(handle, cam, handle.id === held ? null : taken, [width, height], big));
-      tell();
+      for (const {node, tell} of handles) tell?.(layer, node.matches(":focus"));
       const size = big ? 44 : 26;
       return taken.map(([x, y]) => [x - size / 2, y - size / 2, size, size]);
     },
   };
-}
-
-/**
- * While a letter has the focus, its coordinates are in a corner of the scene.
- * @param {HTMLElement} layer
- * @param {Shown[]} handles
- */
-function tellFocused(layer, handles) {
-  const one = handles.find(({node, look}) => look === MARK && node.matches(":focus"));
-  if (one) layer.dataset.at = `${one.mark}: ${one.value()}`;
-  else delete layer.dataset.at;
 }
 
 /**
@@ -220,7 +207,6 @@ function placed(handle, camera, taken, [width, height], big) {
 }
 
 const SCALE_ROOM = 20; // px: the scale of the grid stands below all handles
-const MARK = "rk-mark"; // the look of a handle with a letter
 const TAP = 4; // px: a pointer movement shorter than this counts as a tap
 /** @type {Object<string, [number, number]>} */
 const STEPS = {ArrowLeft: [-1, 0], ArrowRight: [1, 0], ArrowUp: [0, 1], ArrowDown: [0, -1]};
@@ -310,34 +296,4 @@ export function squareTo(axis) {
     length = Math.sqrt(dot(a, a));
   const first = a.map(x => x / length);
   return [first, cross(axis, first)];
-}
-
-/**
- * The handle of a point in the plane z = 0, with a letter on it.
- * @param {{letter: string, name: string, color: Color, unit: Unit, step: number}} look  `step` is
- *   the distance in metres that an arrow key moves the point; with Shift it is ten times as long
- * @param {() => Point} at
- * @param {(place: Point) => void} take
- * @returns {Handle}
- */
-export function letterHandle({letter, name, color, unit, step}, at, take) {
-  const home = [...at()];
-  return {
-    id: letter,
-    name,
-    look: MARK,
-    mark: letter,
-    color,
-    at,
-    value() {
-      const [x, y] = at().map(each => number(each / unit.size, 3));
-      return `${x}, ${y} ${unit.name}`;
-    },
-    grab(view) {
-      const to = inScreen(view, at());
-      return (dx, dy) => take([...to(dx, dy).slice(0, 2), 0]);
-    },
-    step: (right, up, big) => take(plus(at(), [right, up, 0], big ? 10 * step : step)),
-    home: () => take(home),
-  };
 }

@@ -5,7 +5,7 @@
 import {fill} from "./blanks.js";
 import {copyButton} from "./copy.js";
 import {control, element, waiting} from "./elements.js";
-import {letterHandle} from "./handles.js";
+import {letterHandle} from "./letters.js";
 import {fk, origin} from "./kinematics.js";
 import {least} from "./levers.js";
 import {kernelOf, joinArrays} from "./live.js";

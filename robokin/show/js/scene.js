@@ -41,6 +41,8 @@ import {compass} from "./triad.js";
  * @property {(cam: Camera) => Point[]} [around]  points, besides those of the arm, that a growing
  *   scene must show
  * @property {(cam: Camera) => Box[]} [handles]  the boxes of its handles, which no label covers
+ * @property {(cell: Box, handles: Box[]) => Pixel} [compassAt]  where the directions of the base
+ *   are, if not at the lower right
  */
 /** @typedef {ReturnType<typeof surroundings>} Space  the fixed surroundings of a scene */
 /**
@@ -270,7 +272,7 @@ function drawSpace(pen, arms, [x, y, w, h], named) {
   for (const kind in KINDS) KINDS[kind].above({...pen, near: first.near}, only(kind), ofThings);
   labels.push(...all.flatMap(drawFlange), ...ofThings); // a flange is drawn over its target
   const handles = all.flatMap(one => one.handles?.(one.cam) ?? []);
-  compass(g, cam, compassAt([x, y, w, h], handles));
+  compass(g, cam, first.compassAt?.([x, y, w, h], handles) ?? [x + w - 34, y + h - 34]);
   if (named) write(g, first.name, x + 10, y + 18, colors.ink, 13, "left", "600");
   const faded = arms.find(arm => arm.faded)?.faded;
   if (faded) {
@@ -286,23 +288,6 @@ function drawSpace(pen, arms, [x, y, w, h], named) {
     for (const label of own) labels.push({weight: "600", ...label, at: cam.to(label.at)});
   placeLabels(g, labels, [x + 4, y + 24, w - 8, h - 46], handles);
 }
-
-/**
- * The centre of the base's directions: at the lower right, or higher if a handle is there.
- * @param {Box} cell
- * @param {Box[]} handles
- * @returns {Pixel}
- */
-function compassAt([x, y, w, h], handles) {
-  const [right, low] = [x + w - 34, y + h - 34];
-  const taken = handles.some(
-    ([left, top, wide, high]) =>
-      Math.abs(left + wide / 2 - right) < NEAR + wide / 2 &&
-      Math.abs(top + high / 2 - low) < NEAR + high / 2,
-  );
-  return [right, taken ? y + 60 : low];
-}
-const NEAR = 28; // px: the directions reach this far from their centre
 
 /**
  * Draws the floor's grid; with `over`, a translucent floor on top of what is already drawn.
