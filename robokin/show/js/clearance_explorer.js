@@ -215,7 +215,8 @@ function armOf({arm, q, distance, words}, state, found) {
   /** @type {Draw} */
   const circle = (g, {to, scale}) =>
     spot(g, to(state.obstacle), distance * scale, clear(colors.ghost, 0.25), colors.ghost, 1);
-  if (found.why !== undefined) return {name, chain, q, faded: words.none, under: circle};
+  if (found.why !== undefined)
+    return {name, chain, q, faded: true, nowhere: words.none, under: circle};
   const {motion, now} = found,
     {path} = motion,
     shown = postureAt(motion, now.share);

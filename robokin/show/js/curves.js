@@ -143,7 +143,7 @@ function entries(patterns, panels, names) {
   const all = panels.flatMap(panel => panel.lines),
     lines = all.filter(({joint}) => joint >= 0),
     joints = [...new Set(lines.map(({joint}) => joint))],
-    dashed = new Set(all.filter(({joint}) => joint < 0).map(({arm}) => arm)).size > 1;
+    dashed = all.some(({joint, arm}) => joint < 0 && arm);
   return [
     ...joints.map(j => ({
       text: `q${j + 1}`,

@@ -284,7 +284,8 @@ function armOf({arm, before, place}, costs, nowhere) {
     name: arm.name,
     chain: arm.chain,
     q: costs ? posture(costs.alpha) : before,
-    faded: !costs && nowhere,
+    faded: !costs,
+    nowhere,
     ghosts: [...alphas.map(alpha => ({q: posture(alpha), past: false})), {q: before, past: true}],
   };
 }

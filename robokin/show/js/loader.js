@@ -61,8 +61,13 @@ function inTurn(act) {
   return done;
 }
 
-/** The placeholders of a view that has not started. @param {string} id */
-const placesOf = id => document.querySelectorAll(`[data-player="${id}"]:not([data-ready])`);
+/**
+ * The placeholders of a view that has not started, or elements in them.
+ * @param {string} id
+ * @param {string} [inside]  a selector
+ */
+const placesOf = (id, inside = "") =>
+  document.querySelectorAll(`[data-player="${id}"]:not([data-ready])${inside}`);
 
 /**
  * Waits until one of the placeholders of a view is at most half the height of the window away. A
@@ -105,8 +110,9 @@ async function inflated(deflated) {
   const text = atob(deflated),
     bytes = new Uint8Array(text.length);
   for (let i = 0; i < bytes.length; i++) bytes[i] = text.charCodeAt(i);
-  const stream = new Blob([bytes]).stream().pipeThrough(new DecompressionStream("deflate"));
-  return new Response(stream).text();
+  return new Response(
+    new Blob([bytes]).stream().pipeThrough(new DecompressionStream("deflate")),
+  ).text();
 }
 
 /**
@@ -135,8 +141,5 @@ function explain(id, error) {
     typeof DecompressionStream === "undefined"
       ? "This view needs a browser from 2023 or later."
       : `The script of this view failed: ${error}.`;
-  const lines = document.querySelectorAll(
-    `[data-player="${id}"]:not([data-ready]) > p:last-of-type`,
-  );
-  for (const line of lines) line.textContent = reason;
+  for (const line of placesOf(id, ">p:last-of-type")) line.textContent = reason;
 }

@@ -26,7 +26,8 @@ import {compass} from "./triad.js";
  * @property {number[]} q  radians and metres
  * @property {(?Point)[]} [trace]  the tool's places, null at breaks; `tail`: those passed so far
  * @property {(?Point)[]} [tail]
- * @property {boolean | string} [faded]  whether there is no solution here, or words that say so
+ * @property {boolean} [faded]  whether there is no solution here
+ * @property {string} [nowhere]  the words for this, if not "no solution here"
  * @property {?{place: Point, text: string}} [near]  where the path is nearest to "via"
  * @property {{q: number[], past: boolean}[]} [ghosts]  other postures, faint; dashed if they
  *   exceed a limit (`past`)
@@ -271,13 +272,12 @@ function drawSpace(pen, arms, [x, y, w, h], named) {
   const ofThings = [];
   for (const kind in KINDS) KINDS[kind].above({...pen, near: first.near}, only(kind), ofThings);
   labels.push(...all.flatMap(drawFlange), ...ofThings); // a flange is drawn over its target
-  const handles = all.flatMap(one => one.handles?.(one.cam) ?? []);
+  const handles = first.handles?.(all[0].cam) ?? [];
   compass(g, cam, first.compassAt?.([x, y, w, h], handles) ?? [x + w - 34, y + h - 34]);
   if (named) write(g, first.name, x + 10, y + 18, colors.ink, 13, "left", "600");
-  const faded = arms.find(arm => arm.faded)?.faded;
-  if (faded) {
+  if (arms.some(arm => arm.faded)) {
     const at = /** @type {Pixel} */ ([x + w / 2, y]),
-      text = faded === true ? "no solution here" : faded;
+      {nowhere: text = "no solution here"} = first;
     labels.push({text, at, color: colors.alarm, weight: "600", away: [0, 1]});
   }
   if (first.row && arms.length === 1) {

@@ -57,13 +57,13 @@ export function compass(g, cam, [x, y]) {
     [0, 1, 0],
     [0, 0, 1],
   ].forEach((axis, k) => {
-    const [dx, dy] = cam.along(axis),
-      l = Math.hypot(dx, dy) / cam.scale;
+    const [dx, dy] = cam.along(axis).map(d => d / cam.scale),
+      l = Math.hypot(dx, dy);
     if (l < 0.1) return;
-    /** @type {Pixel} */
-    const tip = [x + (18 * dx) / cam.scale, y + (18 * dy) / cam.scale];
-    stroke(g, [[x, y], tip], colors[AXES[k]], 1.4);
-    const [px, py] = [tip[0] + (7 * dx) / cam.scale / l, tip[1] + (7 * dy) / cam.scale / l];
+    /** @type {(r: number) => Pixel} */
+    const at = r => [x + r * dx, y + r * dy];
+    stroke(g, [[x, y], at(18)], colors[AXES[k]], 1.4);
+    const [px, py] = at(18 + 7 / l);
     write(g, AXES[k], px, py + 3.5, colors[AXES[k]], 10, "center");
   });
 }
