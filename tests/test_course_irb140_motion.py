@@ -271,6 +271,15 @@ def test_too_few_turns_are_reported(most, limited, name):
     assert not verdict.holds and verdict.mistake.startswith(name), verdict
 
 
+def test_no_case_depends_on_how_a_computer_rounds():
+    # the wrong programs that choose a row of `ik` must choose the same one on every machine
+    for q0, q1, *_ in book.find("irb140_motion.2", "exercises").cases:
+        ends = [nearest(IRB140, row[None], q0) for row in IRB140.ik(IRB140.fk(q1))]
+        first = nearest(IRB140, ends, q0)
+        others = [end for end in ends if not np.allclose(end, first, atol=1e-6)]
+        assert min(abs(end - q0).sum() for end in others) > abs(first - q0).sum() + 1e-3
+
+
 def test_slightly_wrong_value_is_called_nearly_right():
     D = 1503 * mm  # typed with too few digits
 

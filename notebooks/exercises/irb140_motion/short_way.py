@@ -47,7 +47,7 @@ def cases(rng: np.random.Generator) -> list[Case]:
         one_joint(4, 190, -150),
         one_joint(4, -190, 150),
         one_joint(3, -150, 150),  # joint 3: -230 to 50
-        one_joint(3, 20, 160),
+        one_joint(3, 20, 150),
         case([3, 5, -220, 2, 30, 4], [8, 5, 40, 2, 35, 9], [0, 0.5, 1]),
         one_joint(6, 350, -350),  # two turns
         one_joint(6, -350, 350),
@@ -75,7 +75,7 @@ def cases(rng: np.random.Generator) -> list[Case]:
     ]
     found += [  # a joint without a value inside its limits; `nearest` moves it to one outside them
         one_joint(3, 20, 100),
-        one_joint(3, 20, 190, limits=OTHER),
+        one_joint(3, -30, 190, limits=OTHER),
         case(HOME, [40, 150, -40, 5, 30, -170], six),
         case(HOME, [-60, -120, 130, -170, -160, 120], [0.2, 0.25, 0.9], OTHER),
     ]
