@@ -73,7 +73,7 @@ SLIPS = {
     "no a in the foot": {"px": f"{BX} + dx", "py": f"{BY} + dy"},
     "the foot measured from the tip": {"px": "x3 + a*dx", "py": "y3 + a*dy"},
     "along instead of across": {"u": "h*dx", "v": "h*dy"},
-    "a sign of the direction across": {"yr": "py + v", "yl": "py - v"},
+    "a wrong sign in the direction across": {"yr": "py + v", "yl": "py - v"},
     "the sign in xl": {"xl": "px + u"},
     "the sign in yl": {"yl": "py - v"},
 }
@@ -148,7 +148,7 @@ def test_elbows_of_the_package_do_not_give_the_point_between_them_out_of_reach()
         return [elbows[0], elbows.mean(axis=0), elbows[1]][1 - side]
 
     verdict = check("two_link_code_generation.1", by_package)
-    assert verdict.mistake == "the point between the elbows lost out of reach"
+    assert verdict.mistake == "no point between the elbows where the tip is out of reach"
     assert "side = 0" in verdict.case and verdict.points > 0.8  # everything else is right
 
 
@@ -167,9 +167,9 @@ def test_a_root_that_is_nan_for_side_0_is_distinguished_from_rounding_on_the_rim
         return check("two_link_code_generation.1", elbow)
 
     both = answer(lambda side, h2: side * np.sqrt(h2))
-    assert both.mistake == "0 times NaN for side 0, and the stretched arm lost"
+    assert both.mistake == "0 times NaN for side 0, and no answer for the stretched arm"
     assert "side = 0" in both.case and "0 times NaN is NaN" in both.says[0]
-    assert answer(lambda side, h2: side and side * np.sqrt(h2)).mistake == "the stretched arm lost"
+    assert answer(lambda side, h2: side and side * np.sqrt(h2)).mistake == "no answer for the stretched arm"
 
 
 def test_a_program_is_shown_by_its_length_and_one_line_as_it_is():

@@ -325,7 +325,7 @@ def test_jumps_in_the_first_views_are_as_stated():
 
 def test_elbows_are_swapped_on_the_stated_side():
     exercise = book.lab("two_link_code_generation").exercises["1"]
-    name = r"divides by dx, and the side from the (other )?sign of the root"
+    name = r"divides by dx, and takes the side from the (other )?sign of the root"
     said = [each for each in exercise.own if re.fullmatch(name, each.name)]
     sides = []
     for each in said:

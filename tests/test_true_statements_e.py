@@ -277,8 +277,7 @@ def test_first_lever_turns_by_the_stated_angle_if_the_second_is_short():
 
 def test_least_tool_speed_for_unit_joint_speeds_is_the_smaller_singular_value():
     words = flat("04", "deeper-jacobian")
-    assert "= 1$ rad²/s², which one moves the tool most slowly" in words
-    assert "how fast is the tool then? Its speed is the smallest" in words
+    assert "= 1$ rad²/s², how slow can the tool be? Its lowest speed is the smallest" in words
     q = np.array([0.3, 0.5])
     J = 1e3 * np.array(
         [
@@ -733,11 +732,11 @@ def test_swept_place_and_the_minimum_between_samples_are_as_stated():
     near = s[d < DISTANCE, 0]
     assert (np.diff(near) < 1e-3).all(), "there is more than one minimum"
     told = numbers(r"\) m: too near from (\d+) to (\d+) %", flat("10", "whole-bound"))
-    between = numbers(r"this time between (\d+) and (\d+) %", flat("10", "whole-hand"))
+    between = numbers(r"only between (\d+) and (\d+) %", flat("10", "whole-hand"))
     assert between[0] < told[0] < told[1] < between[1]
     assert found not in asked("obstacle_avoidance.p4")[0], "the question gives the answer away"
     assert told == [round(100 * near[0]), round(100 * near[-1])]
-    hand = re.search(r"but not at (.*?) or 100 %", flat("10", "whole-hand"))[1]
+    hand = re.search(r"looks at (.*?) and 100 %", flat("10", "whole-hand"))[1]
     shares = [float(x) / 100 for x in hand.split(", ")] + [1.0]
     seen = [lever_distance(path[0] + x * (path[1] - path[0]), other) for x in shares]
     assert min(seen) > DISTANCE, "a sample is too near, so the program notices"

@@ -238,7 +238,7 @@ px = base_x + a dx and py = base_y + a dy: go from the base along the line to th
 The direction across is (dy, −dx): xr = px + h dy, yr = py − h dx; on the left the signs change.
   along instead of across: u = h*dx; v = h*dy
   across without a direction: u = h; v = h
-  a sign of the direction across: yr = py + v; yl = py - v
+  a wrong sign in the direction across: yr = py + v; yl = py - v
   the sign in xl: xl = px + u
   the sign in yl: yl = py - v
   the sign in xr: xr = px - u
