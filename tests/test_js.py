@@ -89,6 +89,7 @@ def test_functions_and_files_are_short():
 # For each constant that both languages define: the test in test_twin.py that compares the two.
 TWINS = {
     ("STEPS", 64): "test_page_refines_the_same_maxima",
+    ("AROUND", 8): "test_page_refines_the_same_maxima",
     ("MOST", 200): "test_page_refines_the_same_maxima",
     ("JOINT", 3): "test_page_has_the_same_joint_and_the_same_tolerance_of_pulses",
     ("SLACK", 1e-9): "test_page_has_the_same_joint_and_the_same_tolerance_of_pulses",

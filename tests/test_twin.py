@@ -722,6 +722,18 @@ def test_page_refines_the_same_maxima(twin):
         assert np.isnan(got).all()
 
 
+def test_page_searches_only_above_what_is_known(twin):
+    found = twin(
+        "return [0.5, 2].flatMap(known => "
+        "Object.values(refinedMaximum(x => Math.sin(3 * x), 0, 1, 3, known)));",
+        None,
+        [0],
+        shape=(2, 2),
+    )
+    close(found[0], [1, np.pi / 6], 1e-4)
+    assert found[1, 0] == 2 and np.isnan(found[1, 1])
+
+
 RULES = f"{{least: {LEAP}, few: {FEW}}}"  # the rules for jumps in position
 
 

@@ -8,7 +8,8 @@ import numpy as np
 from .._arrays import Floats
 from .._validate import floats, number, short, whole
 
-STEPS = 64  # steps into which each interval is divided
+STEPS = 64  # steps into which the interval is divided
+AROUND = 8  # steps into which the two steps around a peak are divided
 DIGITS = 12  # maximum number of decimals; a float has only a few more
 MOST = 200  # maximum number of intervals that are sampled
 
@@ -48,11 +49,12 @@ def refined_maximum(
         raise ValueError(f"low and high: wanted low < high, got {low:g} and {high:g}")
     fine = 0.5 * 10.0 ** -(whole(decimals, "decimals", 0, DIGITS) + 2)
     best, stretches = Maximum(-np.inf, np.nan), [(np.inf, low, high)]
-    for _ in range(MOST):
+    for looked in range(MOST):
         if not stretches or stretches[-1][0] < best.value + fine:
             break
         _, start, stop = stretches.pop()
-        at = start + (stop - start) * (np.arange(STEPS + 1) / STEPS)
+        steps = AROUND if looked else STEPS
+        at = start + (stop - start) * (np.arange(steps + 1) / steps)
         values = floats(function(at), "function", finite=False)
         if values.shape != at.shape:
             raise ValueError(f"function: wanted shape {at.shape}, got {values.shape}")
@@ -66,7 +68,7 @@ def refined_maximum(
             values >= np.fmax(before, np.fmax(values, after))
         ).tolist()
         for i in peaks:
-            ends = float(at[max(i - 1, 0)]), float(at[min(i + 1, STEPS)])
+            ends = float(at[max(i - 1, 0)]), float(at[min(i + 1, steps)])
             stretches.append((float(hopes[i]), *ends))
         stretches.sort()
     else:

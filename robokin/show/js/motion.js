@@ -5,6 +5,7 @@ import {slerp} from "./kinematics.js";
 /** @import {PagePose} from "./page.js" */
 
 const STEPS = 64,
+  AROUND = 8,
   MOST = 200;
 
 /**
@@ -163,24 +164,27 @@ export function differentiate(values, t, order = 1) {
  * @param {number} low
  * @param {number} high
  * @param {number} decimals
+ * @param {number} [known]  a value reached elsewhere: only a greater one is searched for, and if
+ *   there is none, the value returned is this one
  * @returns {{value: number, at: number}}  NaN if there is no value, or the search does not converge
  */
-export function refinedMaximum(quantity, low, high, decimals) {
+export function refinedMaximum(quantity, low, high, decimals, known = -Infinity) {
   const fine = 0.5 * 10 ** -(decimals + 2);
   const nothing = {value: NaN, at: NaN};
-  let best = {value: -Infinity, at: NaN};
+  let best = {value: known, at: NaN};
   /** @type {number[][]} */
   const stretches = [[Infinity, low, high]];
   for (let looked = 0; looked < MOST; looked++) {
     const [hope, start, stop] = stretches.pop() || [-Infinity, 0, 0];
     if (hope === -Infinity || hope < best.value + fine)
       return best.value === -Infinity ? nothing : best;
-    const at = Array.from({length: STEPS + 1}, (_, k) => start + (stop - start) * (k / STEPS));
+    const steps = looked ? AROUND : STEPS;
+    const at = Array.from({length: steps + 1}, (_, k) => start + (stop - start) * (k / steps));
     const values = at.map(quantity);
     values.forEach((value, i) => {
       if (Number.isNaN(value)) return;
       if (value > best.value) best = {value, at: at[i]};
-      const [from, to] = [Math.max(i - 1, 0), Math.min(i + 1, STEPS)];
+      const [from, to] = [Math.max(i - 1, 0), Math.min(i + 1, steps)];
       const near = values.slice(from, to + 1).filter(x => !Number.isNaN(x));
       if (value === Math.max(...near))
         stretches.push([2 * value - Math.min(...near), at[from], at[to]]);

@@ -282,6 +282,8 @@ function phaseTable(stage, bench, says) {
   let shown = "";
   /** @type {?ReturnType<typeof table>} */
   let lines = null;
+  /** @type {?HTMLElement} */
+  let current = null; // the row that is visible; a new table shows its first rows
   function renew() {
     const {heads, printed} = bench.page();
     lines = table(
@@ -294,6 +296,7 @@ function phaseTable(stage, bench, says) {
       },
     );
     node.replaceChildren(lines.node);
+    current = node.querySelector("tbody tr");
     stage.handles.set([rotorHandle(bench, says)]);
   }
   return {
@@ -304,7 +307,10 @@ function phaseTable(stage, bench, says) {
       if (now !== shown) renew();
       shown = now;
       lines?.set(bench.page().printed[bench.drive()], bench.row());
-      scrollTo(node, node.querySelector("[aria-current]"));
+      /** @type {?HTMLElement} */
+      const row = node.querySelector("[aria-current]");
+      if (row !== current) scrollTo(node, row); // asking for sizes costs a layout
+      current = row;
     },
   };
 }

@@ -46,8 +46,10 @@ export function peaks(posture, ends, quantities) {
   /** @type {{value: number, slopes: number[][]}[]} */
   const best = quantities.map(() => ({value: -Infinity, slopes: []}));
   let sure = true;
-  for (const [k, high] of ends.entries()) {
-    const low = ends[k - 1];
+  // the shortest first: it is usually the corner, and what it reaches shortens the other searches
+  const parts = ends.slice(1).map((high, k) => [ends[k], high]);
+  parts.sort(([a, b], [c, d]) => b - a - (d - c));
+  for (const [low, high] of parts) {
     if (!(high - low > 1e-9 * last)) continue;
     const h = Math.min(FINE * last, (high - low) / SHARE);
     /** @type {Map<number, number[][]>} */
@@ -60,7 +62,13 @@ export function peaks(posture, ends, quantities) {
       return found;
     };
     for (const [n, {of, about}] of quantities.entries()) {
-      const {value, at} = refinedMaximum(t => of(slopesAt(t)), low, high, decimalsOf(about));
+      const {value, at} = refinedMaximum(
+        t => of(slopesAt(t)),
+        low,
+        high,
+        decimalsOf(about),
+        best[n].value,
+      );
       if (!sure || Number.isNaN(value)) return null;
       if (value > best[n].value) best[n] = {value, slopes: slopesAt(at)};
     }
