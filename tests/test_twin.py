@@ -730,7 +730,7 @@ def test_page_searches_only_above_what_is_known(twin):
         [0],
         shape=(2, 2),
     )
-    close(found[0], [1, np.pi / 6], 1e-4)
+    close(found[0], np.array([1, np.pi / 6]), 1e-4)
     assert found[1, 0] == 2 and np.isnan(found[1, 1])
 
 
