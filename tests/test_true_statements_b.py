@@ -112,7 +112,7 @@ def test_speeds_grow_by_the_stated_factors_ten_times_closer_to_a_singularity():
     pattern = r"grows by a factor of (\S+) at the wrist \(as \$1/m\$\), and by (\S+) at the elbow"
     told = said("07", "cross-look", pattern)
     told += said(
-        "07", "why", r"Farther out, its speed grows faster: by a factor of (\S+) from 100 to"
+        "07", "why", r"Farther out, .*: from 100 to 10 mm, it grows by a factor of (\d+\.\d)"
     )
     d3, l2, l3 = 150.05, 431.8, np.hypot(431.8, 20.3)  # mm
     h = 600 - 671.83
@@ -289,7 +289,7 @@ def test_random_choice_turns_the_joints_more_by_the_stated_factor():
     times = turned["dice"] / turned["least"]
     assert options[right].text == f"About {times:.1f} times as much."
     text = " ".join([question, options[right].reason])
-    told = re.search(r"takes (\d+)° for each task.* adds (\d+)°.* takes (\d+) % more", text)
+    told = re.search(r"turn by (\d+)° in each task.* adds (\d+)°.* takes (\d+) % more", text)
     wide = np.diff(ARM.alpha_range(places), axis=0).mean() / deg
     assert f"the range of alpha is {wide:.0f}° wide on average" in question
     own = [turned["least"], turned["dice"] - turned["least"]]

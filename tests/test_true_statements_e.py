@@ -354,7 +354,7 @@ def test_phi_loses_digits_as_stated():
 
 def test_unwrapping_matters_only_for_joint_6():
     words = flat("07", "choose-rule")
-    told = "along the path, it matters only for joint 6 with its 532°."
+    told = "along the path, it matters only for joint 6, which can turn through 532°."
     assert told in words
     low, high = PUMA560.limits.T
     assert ((high - low) / deg > 360).tolist() == [False] * 5 + [True]
@@ -624,7 +624,7 @@ def test_greedy_rule_is_compared_with_the_best_of_all_choices():
 
 def test_least_movement_per_task_is_the_same_in_both_replies():
     question, options, _ = asked("three_levers.p10")
-    (each,) = numbers(r"The rule of least movement takes (\d+)° for each task", question)
+    (each,) = numbers(r"rule of least movement, the joints turn by (\d+)° in each task", question)
     (wide,) = numbers(r"the range of alpha is (\d+)° wide", question)
     (twice,) = numbers(r"would have to add (\d+)° to every task, about twice", options[2].reason)
     assert abs(twice - 2 * each) <= 1 and twice / wide == pytest.approx(2, abs=0.1)
@@ -820,8 +820,8 @@ def test_plan_tries_more_circles_than_control():
 
 def test_motors_reverse_on_the_straight_line_where_the_lab_says():
     assert (
-        "Motor 3 where the line is nearest to the base: the arm folds, and then unfolds. Motor 2 a "
-        "little later, where γ is greatest." in flat("11", "paths-look")
+        "Motor 3 reverses where the line is nearest to the base: the arm folds, and then unfolds. "
+        "Motor 2 reverses later, where γ is greatest." in flat("11", "paths-look")
     )
     start, goal = np.array([[600, -350, 50], [50, 250, 350]]) * mm
     share = np.linspace(0, 1, 20001)
