@@ -83,7 +83,7 @@ def test_correct_tests_pass(answer):
         ),
         (
             judge_on(np.vstack([POINTS, AXIS]), near=lambda gap: np.linalg.norm(gap) < 1e-5),
-            "accepts: 0.003 mm too near",
+            "accepts: 0.003 mm short of the point",
         ),
         (
             judge_on(np.vstack([POINTS, AXIS]), near=lambda gap: np.linalg.norm(gap) < 1e-7),
@@ -94,7 +94,7 @@ def test_correct_tests_pass(answer):
                 inside(np.asarray(inverse(p))) and np.allclose(ARM.fk(inverse(p)).translation, p)
                 for p in POINTS
             ),
-            "accepts: 0.003 mm too near",
+            "accepts: 0.003 mm short of the point",
         ),
         (
             judge_on(np.vstack([POINTS, AXIS]), near=lambda gap: (gap <= 1e-6).all()),
