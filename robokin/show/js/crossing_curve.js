@@ -9,7 +9,7 @@ import {placeLabels} from "./labels.js";
 /** @import {CrossingExplorer, Found, State} from "./crossing_explorer.js" */
 /** @import {Label} from "./labels.js" */
 
-const MARGIN = {left: 34, right: 12, top: 24, bottom: 20}; // px
+const MARGIN = {left: 34, right: 12, top: 26, bottom: 20}; // px
 
 /**
  * Draws the curves.
@@ -25,16 +25,23 @@ export function drawCurves(canvas, data, {tip}, {tracks, meets, elbows, formula,
   const [g, w, h] = ready,
     {arm, divisor, controls, unit, eliminated, rows} = data,
     {l1, reach, base} = arm.geometry,
-    k = divisor ?? 0;
+    k = divisor ?? 0,
+    {name: along, low, high} = controls[k],
+    far = Math.max(high * unit.size - base[k], base[k] - low * unit.size); // wherever the tip is
   const [left, right, top, bottom] = [MARGIN.left, w - MARGIN.right, MARGIN.top, h - MARGIN.bottom],
     [middle, centre] = [(left + right) / 2, (top + bottom) / 2];
   /** @type {(u: number) => number} */
-  const x = u => middle + ((right - left) / 2) * (u / reach);
+  const x = u => middle + ((right - left) / 2) * (u / far);
   /** @type {(at: Point) => number} */
   const y = at => centre - ((bottom - top) / 2.2) * ((at[k] - base[k]) / l1);
   /** @type {(at: Point) => number} */
   const u = at => at[k] - base[k];
-  const name = `${eliminated}, ${unit.name}, of both elbows over ${controls[k].name}`;
+  /** The coordinate at a distance from the base, as text. @type {(value: number) => string} */
+  const tick = value => {
+    const shown = (value + base[k]) / unit.size;
+    return number(shown, unit.size < 1 ? 0 : isTenth(shown) ? 1 : 2);
+  };
+  const name = `${eliminated} of both elbows over ${along}, both in ${unit.name}`;
   write(g, name, 4, 14, colors.ink, 12, "left", "600");
   for (const value of [-l1, 0, l1]) {
     const level = centre - ((bottom - top) / 2.2) * (value / l1);
@@ -47,14 +54,11 @@ export function drawCurves(canvas, data, {tip}, {tracks, meets, elbows, formula,
       colors.grid,
       1,
     );
-    const text = number((value + base[k]) / unit.size, unit.size < 1 ? 0 : 1);
-    write(g, text, left - 4, level + 4, colors.soft, 11, "right");
+    write(g, tick(value), left - 4, level + 4, colors.soft, 11, "right");
   }
   upright(g, x(0), top, bottom, colors.line, 1);
   for (const value of [-reach, 0, reach]) {
-    const text = number((value + base[k]) / unit.size, unit.size < 1 ? 0 : 1),
-      align = value ? (value < 0 ? "left" : "right") : "center";
-    write(g, text, x(value), bottom + 15, colors.soft, 11, align);
+    write(g, tick(value), x(value), bottom + 15, colors.soft, 11, "center");
   }
   for (const {u: us, right: r, left: l, which} of tracks) {
     /** @type {(way: Point[]) => Pixel[]} */
@@ -77,8 +81,11 @@ export function drawCurves(canvas, data, {tip}, {tracks, meets, elbows, formula,
   elbows.forEach((at, i) => spot(g, [x(u(tip)), y(at)], 3.5, [colors.accent, colors.near][i]));
   if (formula) spot(g, [x(u(tip)), y(formula)], 5, colors.ink);
   nameCurves(g, rows, tracks[1], x, y, [left, MARGIN.top - 6, right - left, bottom - top + 6]);
-  return {at: px => base[k] + ((px - middle) / ((right - left) / 2)) * reach};
+  return {at: px => base[k] + ((px - middle) / ((right - left) / 2)) * far};
 }
+
+/** @type {(x: number) => boolean} */
+const isTenth = x => Math.abs(10 * x - Math.round(10 * x)) < 1e-6;
 
 /**
  * Writes the names of both elbows beside the middle of their curves, where they cover nothing.
@@ -98,7 +105,7 @@ function nameCurves(g, names, track, x, y, room) {
     const label = {
       text: names[k],
       at: [x(track.u[i]), height],
-      color: colors.ink,
+      color: [colors.accent, colors.near][k],
       away: [0, height > heights[1 - k] ? 5 : -5],
     };
     return label;

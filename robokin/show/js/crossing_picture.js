@@ -115,7 +115,7 @@ function drawTracks(g, {to}, data, {tip}, {tracks, crossing}) {
     const formula = divisor === null ? [] : [rail(right, 1), rail(left, -1)][which];
     stroke(g, formula, clear(colors.ghost, 0.35), 11);
     stroke(g, rail(right, 1), colors.accent, 2.2);
-    stroke(g, rail(left, -1), colors.near, 2.2);
+    stroke(g, rail(left, -1), colors.near, 2.2, [7, 4]);
   }
   if (crossing.length) stroke(g, crossing.map(to), colors.alarm, 2.4, [5, 5]);
 }

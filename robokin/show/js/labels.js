@@ -14,6 +14,7 @@ import {WORD, font, ink, stroke, wordInk, write} from "./canvas.js";
  * @property {Pixel} [away]  the preferred direction from its point; without it, the label prefers
  *   the upper right, and a distant label has a line to its point
  * @property {boolean} [near]  whether to leave it out if there is no free place close to its point
+ * @property {boolean} [tip]  whether it names the end of a line: it is beyond this end, or left out
  */
 
 /** @typedef {{x: number, y: number, r: number, heavy: number}} Dot  a part of the ink */
@@ -22,7 +23,9 @@ const GAPS = [5, 14, 26, 40, 58, 84], // px between a point and its label
   TURNS = 12, // the number of directions
   NEAR = 3 * TURNS, // the number of places without a line
   HIGH = 16, // px: the height of a label
-  MOST = 40; // the cost above which a label with `near` is left out
+  TIP = 2 * TURNS, // the number of places close enough to the end of a line
+  MOST = 40, // the cost above which a label with `near` is left out
+  TIPS = 12; // the same for a label with `tip`
 
 /**
  * Writes the labels of a picture, after everything else is drawn in it. The places depend only on
@@ -37,7 +40,7 @@ export function placeLabels(g, labels, [left, top, width, height], handles = [])
   /** @type {Dot[]} */
   const dots = [];
   let marked = 0; // the number of lines in `ink` whose dots are known
-  for (const {text, at, color, weight, away, near} of labels) {
+  for (const {text, at, color, weight, away, near, tip} of labels) {
     while (marked < ink.length) mark(dots, ink[marked++]);
     g.font = font(12, weight);
     const wide = g.measureText(text).width + 4,
@@ -47,12 +50,13 @@ export function placeLabels(g, labels, [left, top, width, height], handles = [])
         ({x, y, r}) => Math.abs(x - px) < wide + r + 90 && Math.abs(y - py) < r + 110,
       );
     let [least, bestX, bestY, place] = [Infinity, 0, 0, 0];
-    for (let k = 0; k < (near ? NEAR : GAPS.length * TURNS); k++) {
+    for (let k = 0; k < (tip ? TIP : near ? NEAR : GAPS.length * TURNS); k++) {
       const gap = GAPS[Math.floor(k / TURNS)],
         turn = (2 * Math.PI * k) / TURNS,
         [c, s] = [Math.cos(turn), -Math.sin(turn)],
         u = px + c * (gap + wide / 2) - wide / 2,
         v = py + s * (gap + HIGH / 2) - HIGH / 2;
+      if (tip && 2 * (ax * c + ay * s) < Math.hypot(ax, ay)) continue; // by more than 60°
       let cost = gap / 6 + 1 - ax * c - ay * s;
       if (u !== between(u, left, width - wide) || v !== between(v, top, height - HIGH))
         cost += 5 * WORD;
@@ -64,7 +68,7 @@ export function placeLabels(g, labels, [left, top, width, height], handles = [])
       }
       if (cost < least) [least, bestX, bestY, place] = [cost, u, v, k];
     }
-    if (near && least > MOST) continue;
+    if (least > (tip ? TIPS : near ? MOST : Infinity)) continue;
     if (place >= NEAR && !away) {
       const u = between(px, bestX, wide),
         v = between(py, bestY, HIGH);

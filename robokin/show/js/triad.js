@@ -41,7 +41,7 @@ export function triad(g, cam, pose, length, width, alpha) {
     if (long <= 0.35 * length * cam.scale) return [];
     /** @type {Pixel} */
     const away = [(3 * dx) / long, (3 * dy) / long];
-    return [{text: name, at: tip, color: colors[name], weight: "600", away, near: true}];
+    return [{text: name, at: tip, color: colors[name], weight: "600", away, tip: true}];
   });
 }
 
