@@ -1,6 +1,6 @@
 // The curves: panels with a common time axis, one of them large.
 
-import {clear, colors, font, jointColor, number, prepared, stroke, write} from "./canvas.js";
+import {clear, colors, font, jointColor, level, number, prepared, write} from "./canvas.js";
 import {dashes, drawPanel, FAINT, strength} from "./panel.js";
 
 /** @import {Context} from "./canvas.js" */
@@ -175,12 +175,7 @@ function legend(g, legend, left, right) {
     g.font = font(12);
     const wide = 30 + g.measureText(text).width;
     if (x > left && x + wide > right + 8) [x, y] = [left, y + 16];
-    /** @type {[number, number][]} */
-    const sample = [
-      [x, y - 4],
-      [x + 24, y - 4],
-    ];
-    stroke(g, sample, color, width, dash);
+    level(g, y - 4, x, x + 24, color, width, dash);
     write(g, text, x + 28, y, colors.ink, 12);
     x += wide + 8;
   }

@@ -4,6 +4,7 @@
 import {
   colors,
   jointColor,
+  level,
   number,
   polygon,
   prepared,
@@ -144,22 +145,11 @@ function plotOf(g, w, h, limits, [least, most]) {
  * @param {number[]} values
  */
 function drawLevels({g, left, right, bottom, y}, values) {
-  /** @type {(py: number) => void} */
-  const level = py =>
-    stroke(
-      g,
-      [
-        [left, py],
-        [right, py],
-      ],
-      colors.grid,
-      1,
-    );
-  level(bottom);
+  level(g, bottom, left, right, colors.grid, 1);
   /** @type {number[]} */
   const taken = [];
   for (const value of values.toSorted((a, b) => b - a)) {
-    level(y(value));
+    level(g, y(value), left, right, colors.grid, 1);
     if (taken.some(py => Math.abs(py - y(value)) < LINE)) continue;
     taken.push(y(value));
     const text = `${number(degrees(value), 0)}\u00B0`;
@@ -202,14 +192,11 @@ function tellLines({g, top, bottom}, px, {terms, dashes}, ends) {
   }
   for (const {text, j, py} of names) {
     const [color, dash] = j < terms.length ? [jointColor(j), dashes[j]] : [colors.ink, []];
-    /** @type {Pixel[]} */
-    const piece = [
-      [px, py - 4],
-      [px + 13, py - 4],
-    ];
-    stroke(
+    level(
       g,
-      piece,
+      py - 4,
+      px,
+      px + 13,
       color,
       1.8,
       dash.map(x => 1.8 * x),

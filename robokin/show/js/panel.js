@@ -4,6 +4,7 @@ import {
   clear,
   colors,
   jointColor,
+  level,
   number,
   polygon,
   spot,
@@ -148,12 +149,7 @@ function drawGrid({g, x, sides: [left, right, top, bottom]}, [low, step, count],
   for (let i = 0; i < count; i++) {
     const value = low + i * step,
       color = Math.abs(value) < step / 9 ? colors.line : colors.grid;
-    /** @type {Pixel[]} */
-    const line = [
-      [left, y(value)],
-      [right, y(value)],
-    ];
-    stroke(g, line, color, 1);
+    level(g, y(value), left, right, color, 1);
   }
   for (let i = 0; i < ticks[2]; i++)
     upright(g, x(ticks[0] + i * ticks[1]), top, bottom, colors.grid, 1);
@@ -213,15 +209,7 @@ function band(g, at, side, left, right, color) {
   fade.addColorStop(1, clear(color, 0.05));
   g.fillStyle = fade;
   g.fillRect(left, at, right - left, -12 * side);
-  stroke(
-    g,
-    [
-      [left, at],
-      [right, at],
-    ],
-    color,
-    1,
-  );
+  level(g, at, left, right, color, 1);
 }
 
 /**
