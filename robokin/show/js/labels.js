@@ -22,6 +22,7 @@ const GAPS = [5, 14, 26, 40, 58, 84], // px between a point and its label
   TURNS = 12, // the number of directions
   NEAR = 3 * TURNS, // the number of places without a line
   HIGH = 16, // px: the height of a label
+  REACH = 40, // px: the directions of the base and a letter beside them are this near to their centre
   MOST = 40; // the cost above which a label with `near` is left out
 
 /**
@@ -81,6 +82,24 @@ export function placeLabels(g, labels, [left, top, width, height], handles = [])
     }
     write(g, text, bestX + 2, bestY + 12, color, 12, "left", weight);
   }
+}
+
+/**
+ * The place with the least ink within REACH; of several such places, the first.
+ * @param {Pixel[]} places
+ * @param {Box[]} handles
+ */
+export function freest(places, handles) {
+  /** @type {Dot[]} */
+  const dots = [];
+  for (const each of [...ink, ...handles.map(wordInk)]) mark(dots, each);
+  const costs = places.map(([px, py]) =>
+    dots.reduce(
+      (sum, {x, y, r, heavy}) => (Math.hypot(x - px, y - py) < r + REACH ? sum + heavy : sum),
+      0,
+    ),
+  );
+  return places[costs.indexOf(Math.min(...costs))];
 }
 
 /** @type {(x: number, low: number, size: number) => number} */

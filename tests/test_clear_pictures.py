@@ -1,0 +1,171 @@
+"""Nothing that is drawn hides a number, a letter or the directions of the base, on a phone and with
+all sliders at their ends. `test_fit.py` tests this for the words of whole labs.
+"""
+
+import numpy as np
+import pytest
+import test_player
+from canvas_words import COVERED, NEXT, RECORD
+from conftest import awake
+
+from robokin import ITMO6R, deg, loader_arm, ptp, three_lever, turning_base
+from robokin.show import animate, joint_explorer, paths_explorer
+from robokin.show.palette import PAGE
+
+page = test_player.page
+PHONE = 390, 324  # px: the page of a view; one whose view is as narrow as that of a lab
+LEVERS = three_lever(1.0)
+# `canvas.lines`: the points (px), colour and width of all lines in the last picture
+LINES = """{
+  const pen = CanvasRenderingContext2D.prototype;
+  const {clearRect, beginPath, moveTo, lineTo, stroke} = pen;
+  Object.assign(pen, {
+    clearRect(...all) { this.canvas.lines = []; return clearRect.apply(this, all); },
+    beginPath() { this.line = []; return beginPath.call(this); },
+    moveTo(x, y) { this.line.push([x, y]); return moveTo.call(this, x, y); },
+    lineTo(x, y) { this.line.push([x, y]); return lineTo.call(this, x, y); },
+    stroke() {
+      const width = +this.lineWidth.toFixed(2); // a canvas keeps 32 bits of it
+      this.canvas.lines?.push({points: this.line, color: this.strokeStyle, width});
+      return stroke.call(this);
+    },
+  });
+}"""
+# Moves sliders to values
+TO_VALUES = """values => {
+  for (const slider of document.querySelectorAll("input[type=range]")) {
+    const value = values[slider.ariaLabel.split(",")[0]];
+    if (value === undefined) continue;
+    slider.value = value;
+    slider.dispatchEvent(new Event("input", {bubbles: true}));
+  }
+}"""
+# `canvas.rings`: the centres of the rings on paths in the last picture
+RINGS = """{
+  const pen = CanvasRenderingContext2D.prototype, {clearRect, arc} = pen;
+  pen.clearRect = function (...all) { this.canvas.rings = []; return clearRect.apply(this, all); };
+  pen.arc = function (x, y, r, ...more) {
+    if (r === 4.5) this.canvas.rings.push([x, y]);
+    return arc.call(this, x, y, r, ...more);
+  };
+}"""
+# Moves all sliders whose name begins with a text to the same end
+TO_END = """([end, name]) => {
+  for (const slider of document.querySelectorAll("input[type=range]"))
+    if (slider.checkVisibility() && slider.ariaLabel.startsWith(name)) {
+      slider.value = slider[end];
+      slider.dispatchEvent(new Event("input", {bubbles: true}));
+    }
+}"""
+
+
+def shown(page, view, tmp_path, width, end, name, *scripts):
+    """Open a view on a phone, with all sliders whose name begins with `name` at one end."""
+    for script in scripts:
+        page.add_init_script(script)
+    page.set_viewport_size({"width": width, "height": 900})
+    view.save(tmp_path / "view.html")
+    page.goto((tmp_path / "view.html").as_uri())
+    awake(page)
+    page.evaluate(TO_END, [end, name])
+    page.evaluate(NEXT)
+    return page
+
+
+def two_tasks():
+    """Two arms, one above the other, whose tools begin near the lower right corner."""
+    t = np.linspace(0, 3, 61)
+    begin = np.array([60, 120, 120]) * deg
+    first = LEVERS.least((2.4, 0.4), begin)[0]
+    ends = [first, LEVERS.least((-2.1, 1.2), first)[0]]
+    q = np.stack([ptp(begin, end, t / 3) for end in ends])
+    watched = {"turned so far, °": [np.zeros(q.shape[:2])] * 2}
+    return animate([LEVERS] * 2, t, [q, q], slider=("end", [0, 1]), joints=[], quantities=watched)
+
+
+def chain():
+    return joint_explorer(turning_base(LEVERS), np.array([0, 100, 110, 120]) * deg)
+
+
+@pytest.mark.parametrize("end", ["min", "max"])
+@pytest.mark.parametrize("width", PHONE)
+@pytest.mark.parametrize("view", [two_tasks, chain])
+def test_directions_of_the_base_are_apart_from_the_arm(page, tmp_path, view, width, end):
+    shown(page, view(), tmp_path, width, end, "", LINES)
+    lines = page.evaluate("document.querySelector('canvas').lines")
+    axes = [PAGE[name][0].lower() for name in "xyz"]
+    corners = [
+        line["points"][0] for line in lines if line["width"] == 1.4 and line["color"] in axes
+    ]
+    assert corners, "the directions are not drawn"
+    drawn = np.concatenate([along(line) for line in lines if line["width"] >= 1.8])
+    assert len(drawn) > 100
+    for corner in corners:
+        assert np.linalg.norm(drawn - corner, axis=-1).min() > 30
+
+
+def along(line):
+    """Points on a line (k, 2)."""
+    points = np.array(line["points"], float).reshape(-1, 2)
+    shares = np.linspace(0, 1, 20)[:, None, None]
+    return (points[:-1] + shares * np.diff(points, axis=0)).reshape(-1, 2)
+
+
+@pytest.mark.parametrize("end", ["min", "max"])
+@pytest.mark.parametrize("width", PHONE)
+def test_no_joint_axis_goes_through_the_scale(page, tmp_path, width, end):
+    shown(page, joint_explorer(ITMO6R), tmp_path, width, end, "")
+    page.evaluate(COVERED, ["^grid", [f"joint{j}" for j in range(1, 7)]])
+    page.evaluate(TO_END, [end, ""])
+    page.evaluate(NEXT)
+    covered = page.evaluate("covered")
+    assert covered and not any(pixels for _, pixels in covered), covered
+
+
+def paths():
+    return paths_explorer(
+        loader_arm(0.45, 0.30), (0.6, -0.35, 0.05), (0.05, 0.25, 0.35), [10, 40, 40]
+    )
+
+
+@pytest.mark.parametrize("width", PHONE)
+@pytest.mark.parametrize("end", ["min", "max"])
+@pytest.mark.parametrize("goal", [(-320, 160, 640), (50, 250, 350), (200, 250, 100)])
+def test_all_paths_are_in_the_picture_and_no_letter_stands_on_a_ring(
+    page, tmp_path, goal, end, width
+):
+    shown(page, paths(), tmp_path, width, "min", "time", LINES, RECORD, RINGS)
+    page.evaluate(TO_VALUES, dict(zip("xyz", goal, strict=True)))
+    page.evaluate(NEXT)
+    page.evaluate(TO_END, [end, "time"])
+    page.evaluate(NEXT)
+    canvas = page.evaluate(
+        """() => {
+          const canvas = document.querySelector("canvas");
+          const {clientWidth: width, clientHeight: height, lines, rings} = canvas;
+          return {width, height, lines, rings, words: canvasWords()[0].words};
+        }"""
+    )
+    drawn = [line for line in canvas["lines"] if len(line["points"]) > 20 and line["width"] >= 2]
+    assert len(drawn) == 3
+    for line in drawn:
+        points = np.array(line["points"])
+        assert (points > 0).all() and (points < [canvas["width"], canvas["height"]]).all()
+    letters = [word["box"] for word in canvas["words"] if word["text"] in ("a", "c", "d")]
+    assert len(letters) == 3 and canvas["rings"]
+    for left, top, wide, high in letters:
+        for ring in canvas["rings"]:
+            nearest = np.clip(ring, [left, top], [left + wide, top + high])
+            assert np.linalg.norm(nearest - ring) > 4.5
+
+
+def test_letter_of_a_handle_outside_the_picture_is_opaque(page, tmp_path):
+    shown(page, paths(), tmp_path, PHONE[0], "max", "z")
+    handle = page.locator(".rk-outside").first
+    looks = handle.evaluate(
+        """node => {
+          const {backgroundColor} = getComputedStyle(node, "::before");
+          return [getComputedStyle(node).opacity, backgroundColor];
+        }"""
+    )
+    assert looks == ["1", "rgb(255, 255, 255)"]
