@@ -8,14 +8,14 @@ import test_player
 from canvas_words import COVERED, NEXT, RECORD
 from conftest import awake
 
-from robokin import ITMO6R, deg, loader_arm, ptp, three_lever, turning_base
+from robokin import IRB140, ITMO6R, deg, linear, loader_arm, ptp, three_lever, turning_base
 from robokin.show import animate, joint_explorer, paths_explorer
 from robokin.show.palette import PAGE
 
 page = test_player.page
 PHONE = 390, 324  # px: the page of a view; one whose view is as narrow as that of a lab
 LEVERS = three_lever(1.0)
-# `canvas.lines`: the points (px), colour and width of all lines in the last picture
+# `canvas.lines`: the points (px), colour, width and dash of all lines in the last picture
 LINES = """{
   const pen = CanvasRenderingContext2D.prototype;
   const {clearRect, beginPath, moveTo, lineTo, stroke} = pen;
@@ -26,7 +26,8 @@ LINES = """{
     lineTo(x, y) { this.line.push([x, y]); return lineTo.call(this, x, y); },
     stroke() {
       const width = +this.lineWidth.toFixed(2); // a canvas keeps 32 bits of it
-      this.canvas.lines?.push({points: this.line, color: this.strokeStyle, width});
+      const [points, color, dash] = [this.line, this.strokeStyle, this.getLineDash()];
+      this.canvas.lines?.push({points, color, width, dash});
       return stroke.call(this);
     },
   });
@@ -169,3 +170,69 @@ def test_letter_of_a_handle_outside_the_picture_is_opaque(page, tmp_path):
         }"""
     )
     assert looks == ["1", "rgb(255, 255, 255)"]
+
+
+def race(joints=None):
+    """Two arms that start together, with two words at their tools."""
+    t = np.linspace(0, 2, 41)
+    begin, end = np.array([[63, 30, 15, -90, -63, -45], [-56, 20, 10, -60, -80, -20]]) * deg
+    runs = [[ptp(begin, share * end, linear(time)(t)) for share in (0.6, 1)] for time in (1, 2)]
+    tools = [IRB140.fk(np.array(run)).translation for run in runs]
+    clock = np.broadcast_to(t, (2, 41))
+    names = ["LIN", "PTP"]
+    return animate(
+        [IRB140] * 2,
+        t,
+        runs,
+        names=names,
+        bases=np.zeros((2, 2)),
+        points={f"{name}, s": each for name, each in zip(names, tools, strict=True)},
+        readings={f"{name}, s": clock for name in names},
+        targets={"start": IRB140.fk(begin), "goal": IRB140.fk(end)},
+        slider=("share", [0.6, 1]),
+        quantities={"way, m": [each[..., 2] for each in tools]},
+        joints=joints,
+    )
+
+
+@pytest.mark.parametrize("width", [*PHONE, 1366])
+def test_line_from_a_word_to_its_point_goes_through_no_other_word(page, tmp_path, width):
+    shown(page, race(), tmp_path, width, "min", "", LINES, RECORD)
+    [lines, words] = page.evaluate(
+        "[document.querySelector('canvas').lines, canvasWords()[0].words]"
+    )
+    soft = PAGE["soft"][0].lower()
+    leaders = [line for line in lines if line["width"] == 1 and line["color"] == soft]
+    assert [word["text"] for word in words if word["text"].endswith("0.00")], "no readings"
+    assert leaders or width == 324, "no word is far from its point"
+    for left, top, wide, high in [word["box"] for word in words if word["box"][2]]:
+        for x, y in np.concatenate([along(line) for line in leaders or ()] or [[[-1, -1]]]):
+            assert not (left < x < left + wide and top < y < top + high)
+
+
+@pytest.mark.parametrize("joints", [None, []])
+def test_legend_has_the_lines_of_the_arms_and_names_the_faint_curves(page, tmp_path, joints):
+    """Where dashes stand for joints, only its width tells which arm a line belongs to."""
+    faint = "faint: the opening motion"
+    shown(page, race(joints), tmp_path, 900, "min", "share", LINES, RECORD)
+    for end, moved in (("min", False), ("max", True)):
+        page.evaluate(TO_END, [end, "share"])
+        page.evaluate(NEXT)
+        [lines, words] = page.evaluate(
+            "[document.querySelectorAll('canvas')[1].lines, canvasWords()[1].words]"
+        )
+        assert (faint in [word["text"] for word in words]) == moved
+        ink = PAGE["ink"][0].lower()
+        for width in (2.6, 1.4):
+            arm = [line for line in lines if line["color"] == ink and line["width"] == width]
+            sample, *curves = [
+                line["dash"] for line in arm if len(line["points"]) > 2 or length(line) == 24
+            ]
+            assert curves and all(curve == sample for curve in curves)
+            assert bool(sample) == (width == 1.4 and joints == [])
+
+
+def length(line):
+    """The length of a line with two points in px."""
+    points = np.reshape(line["points"], (-1, 2))
+    return round(float(np.linalg.norm(np.diff(points, axis=0))))

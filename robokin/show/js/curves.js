@@ -52,12 +52,14 @@ export function curvesView(canvas, patterns, unit = "s") {
     // a legend in one row is lower than the name of a plot
     const end = h - 24,
       shown = heights(panels.length, large, end - HEAD).map(([k]) => panels[k]),
+      joints = shown.some(({lines}) => lines.some(({joint}) => joint >= 0)),
       begin = legend(g, entries(patterns, shown, names), left, right);
     let top = begin;
     for (const [k, height] of heights(panels.length, large, end - begin)) {
       /** @type {[number, number, number, number]} */
       const sides = [left, right, top + HEAD, top + HEAD + height];
-      drawPanel({g, patterns, times, x, sides, several: names.length > 1}, panels[k], ticks, now);
+      const ground = {g, patterns, times, x, sides, several: names.length > 1, joints};
+      drawPanel(ground, panels[k], ticks, now);
       top += HEAD + height;
     }
     tellTimes(g, ticks, [t0, t1], x, end + 16, unit);
@@ -132,8 +134,9 @@ function widest(g, panels, axis) {
 }
 
 /**
- * The legend of the joints in these panels, and of the arms if there are several. The lines of the
- * arms have dashes if a quantity is drawn for several arms.
+ * The legend of the joints in these panels, of the arms if there are several, and of the curves of
+ * the opening motion. The dashes tell the joints apart; where there are none, they tell the arms
+ * apart.
  * @param {number[][]} patterns
  * @param {Panel[]} panels
  * @param {string[]} names
@@ -142,8 +145,7 @@ function widest(g, panels, axis) {
 function entries(patterns, panels, names) {
   const all = panels.flatMap(panel => panel.lines),
     lines = all.filter(({joint}) => joint >= 0),
-    joints = [...new Set(lines.map(({joint}) => joint))],
-    dashed = all.some(({joint, arm}) => joint < 0 && arm);
+    joints = [...new Set(lines.map(({joint}) => joint))];
   return [
     ...joints.map(j => ({
       text: `q${j + 1}`,
@@ -155,8 +157,11 @@ function entries(patterns, panels, names) {
       text,
       color: colors.ink,
       width: strength(arm),
-      dash: dashed ? dashes(patterns, arm, strength(arm)) : [],
+      dash: dashes(patterns, joints.length ? 0 : arm, strength(arm)),
     })),
+    ...(all.some(({opening, faint}) => opening && !faint)
+      ? [{text: "faint: the opening motion", color: clear(colors.ink, FAINT), width: 1.2, dash: []}]
+      : []),
   ];
 }
 

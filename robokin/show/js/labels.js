@@ -63,18 +63,18 @@ export function placeLabels(g, labels, [left, top, width, height], handles = [])
         if (x > u - r && x < u + wide + r && y > v - r && y < v + HIGH + r) cost += heavy;
         if (cost >= least) break;
       }
+      if (k >= NEAR && !away && crossed(close, px, py, ...line(px, py, u, v, wide))) cost += WORD;
       if (cost < least) [least, bestX, bestY, place] = [cost, u, v, k];
     }
     if (near && least > MOST) continue;
     if (place >= NEAR && !away) {
-      const u = between(px, bestX, wide),
-        v = between(py, bestY, HIGH);
+      const [dx, dy] = line(px, py, bestX, bestY, wide);
       // the line does not reach the dot at the point
       stroke(
         g,
         [
-          [u, v],
-          [(4 * px + u) / 5, (4 * py + v) / 5],
+          [px + dx, py + dy],
+          [px + dx / 5, py + dy / 5],
         ],
         color,
         1,
@@ -101,6 +101,23 @@ export function freest(places, handles) {
   );
   return places[costs.indexOf(Math.min(...costs))];
 }
+
+/**
+ * The line from a point to a label whose upper left corner is (u, v).
+ * @type {(px: number, py: number, u: number, v: number, wide: number) => Pixel}
+ */
+const line = (px, py, u, v, wide) => [between(px, u, wide) - px, between(py, v, HIGH) - py];
+
+/**
+ * Whether a line from a point goes through words, beyond what is at the point itself.
+ * @type {(dots: Dot[], px: number, py: number, dx: number, dy: number) => boolean}
+ */
+const crossed = (dots, px, py, dx, dy) =>
+  dots.some(({x, y, r, heavy}) => {
+    const share = ((x - px) * dx + (y - py) * dy) / (dx * dx + dy * dy);
+    const aside = Math.hypot(x - px - share * dx, y - py - share * dy);
+    return heavy === WORD && share > 0.2 && share < 1 && aside < r;
+  });
 
 /** @type {(x: number, low: number, size: number) => number} */
 const between = (x, low, size) => Math.max(low, Math.min(low + size, x));

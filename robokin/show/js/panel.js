@@ -47,9 +47,11 @@ import {lineColor, panelWords, shade} from "./panel_words.js";
 /** @typedef {[left: number, right: number, top: number, bottom: number]} Sides */
 /**
  * The data for drawing a panel: the canvas, the dashes of the joints' lines, the times and their
- * places, the sides of the panel, and whether it shows several arms.
+ * places, the sides of the panel, whether it shows several arms, and whether joints have dashes in
+ * this picture.
  * @typedef {{
  *   g: Context, patterns: number[][], times: Times, x: Place, sides: Sides, several: boolean,
+ *   joints: boolean,
  * }} Ground
  */
 
@@ -234,7 +236,7 @@ function placed({times, x}, {values, gaps}, y) {
  * @param {Place} y
  */
 function curve(ground, line, y) {
-  const {g, patterns, several} = ground,
+  const {g, patterns, several, joints} = ground,
     points = placed(ground, line, y),
     width = several ? strength(line.arm) : 2;
   if (!line.faint && line.limits) {
@@ -244,7 +246,8 @@ function curve(ground, line, y) {
   }
   g.lineCap = "butt";
   const color = line.faint ? clear(lineColor(line), FAINT) : lineColor(line);
-  // a quantity has no joint: its dashes tell the arms apart
-  stroke(g, points, color, width, dashes(patterns, line.joint < 0 ? line.arm : line.joint, width));
+  // a quantity has no joint: its dashes tell the arms apart, unless dashes stand for joints
+  const kind = line.joint >= 0 ? line.joint : joints ? 0 : line.arm;
+  stroke(g, points, color, width, dashes(patterns, kind, width));
   g.lineCap = "round";
 }
