@@ -8,7 +8,21 @@ import test_player
 from canvas_words import COVERED, NEXT, RECORD
 from conftest import awake
 
-from robokin import IRB140, ITMO6R, deg, linear, loader_arm, ptp, three_lever, turning_base
+from robokin import (
+    IRB140,
+    ITMO6R,
+    PUMA560,
+    Quaternion,
+    Transform,
+    deg,
+    follow,
+    lin,
+    linear,
+    loader_arm,
+    ptp,
+    three_lever,
+    turning_base,
+)
 from robokin.show import animate, joint_explorer, paths_explorer
 from robokin.show.palette import PAGE
 
@@ -230,6 +244,40 @@ def test_legend_has_the_lines_of_the_arms_and_names_the_faint_curves(page, tmp_p
             ]
             assert curves and all(curve == sample for curve in curves)
             assert bool(sample) == (width == 1.4 and joints == [])
+
+
+@pytest.mark.parametrize("end", ["min", "max"])
+@pytest.mark.parametrize("width", [*PHONE, 1366])
+def test_text_of_a_limit_touches_no_band_of_another_limit(page, tmp_path, width, end):
+    """Six limits of a PUMA 560 are in one panel, those of joint 6 (at -266 and 266 degrees) on both
+    sides of zero. A band begins at its limit and leads away from zero.
+    """
+    level = Quaternion.from_angle_axis(90 * deg, [0, 1, 0])
+    t = np.linspace(0, 1, 101)
+    start, goal = Transform(level, [(0.55, 0.6, 0.8), (0.55, -0.2, 1.1)])
+    rows = PUMA560.ik(lin(start, goal, t))
+    motions = np.stack([follow(PUMA560, rows, k) for k in range(8)])
+    view = animate(PUMA560, t, motions, slider=("row", np.arange(8)))
+    shown(page, view, tmp_path, width, end, "row", LINES, RECORD)
+    [lines, words] = page.evaluate(
+        "[document.querySelectorAll('canvas')[1].lines, canvasWords()[1].words]"
+    )
+    joints = [PAGE[f"joint{k}"][0].lower() for k in range(1, 7)]
+    limits = [
+        (joints.index(line["color"]) + 1, line["points"][0][1])
+        for line in lines
+        if line["width"] == 1 and line["color"] in joints
+    ]
+    zero = np.mean([y for joint, y in limits if joint == 6])
+    texts = [word for word in words if "limit" in word["text"]]
+    assert len(limits) == 7 and len(texts) >= 3
+    for word in texts:
+        own = int(word["text"][1])
+        _, top, _, high = word["box"]
+        for joint, y in limits:
+            band = sorted([y, y + np.sign(y - zero) * 8])
+            assert joint == own or band[0] > top + high or band[1] < top, (word["text"], joint)
+        assert min(abs(y - top - high / 2) for joint, y in limits if joint == own) < 12
 
 
 def length(line):
