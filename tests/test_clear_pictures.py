@@ -23,7 +23,7 @@ from robokin import (
     three_lever,
     turning_base,
 )
-from robokin.show import animate, joint_explorer, paths_explorer
+from robokin.show import animate, joint_explorer, movement_explorer, paths_explorer
 from robokin.show.palette import PAGE
 
 page = test_player.page
@@ -278,6 +278,19 @@ def test_text_of_a_limit_touches_no_band_of_another_limit(page, tmp_path, width,
             band = sorted([y, y + np.sign(y - zero) * 8])
             assert joint == own or band[0] > top + high or band[1] < top, (word["text"], joint)
         assert min(abs(y - top - high / 2) for joint, y in limits if joint == own) < 12
+
+
+@pytest.mark.parametrize("width", [*PHONE, 1366])
+def test_ends_of_the_range_of_alpha_are_named_where_the_curve_ends(page, tmp_path, width):
+    view = movement_explorer(LEVERS, np.array([90, 90, 90]) * deg, (1.8, 0.6))
+    shown(page, view, tmp_path, width, "none", "none", LINES, RECORD)
+    [lines, words] = page.evaluate(
+        "[document.querySelectorAll('canvas')[1].lines, canvasWords()[1].words]"
+    )
+    [curve] = [line["points"] for line in lines if line["width"] == 2.2]
+    for text, (x, _) in (("69.5°", curve[0]), ("180.0°", curve[-1])):
+        [[left, _, wide, _]] = [word["box"] for word in words if word["text"] == text]
+        assert abs(left + wide / 2 - x) < 1, text
 
 
 def length(line):

@@ -218,8 +218,8 @@ function diamond(g, [x, y]) {
 }
 
 /**
- * Writes both ends of the range of the free angle below the axis, and each limit for which
- * there is room.
+ * Writes both ends of the range of the free angle below the axis, side by side if the range is
+ * narrow, and each limit for which there is room.
  * @param {Plot} plot
  * @param {Costs} costs
  */
@@ -230,9 +230,10 @@ function drawAngles({g, x, bottom}, {low, high, limits}) {
       text = `${number(degrees(value), decimals)}\u00B0`;
     write(g, text, x(value) + gap, bottom + 14, color, 11, align);
   };
-  name(low, 1, colors.ink, -3);
-  name(high, 1, colors.ink, 3);
   const room = 60; // px: the width of the text at one end, and half the width of a limit
+  const gap = x(high) - x(low) < room ? 3 : 0;
+  name(low, 1, colors.ink, -gap);
+  name(high, 1, colors.ink, gap);
   if (x(low) > x(limits[0]) + room) name(limits[0], 0, colors.soft, 0);
   if (x(high) < x(limits[1]) - room) name(limits[1], 0, colors.soft, 0);
 }
