@@ -115,6 +115,8 @@ MOVE = """([i, n]) => {
         slider.dispatchEvent(new Event("input", {bubbles: true}));
       });
 }"""
+# Waits until the next picture is drawn
+NEXT = "() => new Promise(done => requestAnimationFrame(() => requestAnimationFrame(done)))"
 SIZE, CONTRAST = 10, 4.5
 OVERLAP = 1.5  # the overlap allowed for two boxes, in px
 ROUND = 0.15  # the part of the box of a round joint or handle that its corners leave free

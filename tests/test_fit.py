@@ -6,14 +6,13 @@ import re
 
 import nbformat
 import pytest
-from canvas_words import MOVE, faults
+from canvas_words import MOVE, NEXT, faults
 from canvas_words import RECORD as WORDS
 from conftest import NOTEBOOKS, awake
 from fitting import RECORD as SIZES
 from fitting import SCREEN, sizes, walked
 
 LABS = [path.stem for path in sorted(NOTEBOOKS.glob("*.ipynb"))]
-NEXT = "() => new Promise(done => requestAnimationFrame(() => requestAnimationFrame(done)))"
 # Returns the sentences of visible players that do not fit into their boxes
 CUT = """() => [...document.querySelectorAll(".rk-player .rk-says")]
   .filter(box => box.clientHeight && box.scrollHeight > box.clientHeight + 1)

@@ -88,11 +88,14 @@ def numbers(text):
     is least.
     """
     form = (
-        r"gamma (.*)°, beta (.*)°, alpha (.*)°: S = (.*)° \+ (.*)° \+ (.*)° = (.*)°; the longest "
+        r"gamma (.*)°, beta (.*)°, alpha (.*)°: S = (.*)° \+ (.*)° \+ (.*)° ([=≈]) (.*)°; the longest "
         r"turn is (.*)°\. The least S is (.*)°, at alpha = (.*)°: ([^.]*)\.(?: With the "
         r"earlier (.*)°, the total is (.*)°\. The longest turns add up to (.*)°\.)?"
     )
     *values, where, before, total, longest = re.fullmatch(form, text).groups()
+    equals = values.pop(6)  # as printed: the rounded terms may add up to another value
+    adds_up = abs(sum(map(float, values[3:6])) - float(values[6])) < 0.01
+    assert equals == ("=" if adds_up else "≈")
     return [float(x) for x in values], where, *[x and float(x) for x in (before, total, longest)]
 
 

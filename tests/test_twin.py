@@ -85,8 +85,8 @@ SHARES = {"postures": 4000, "places": 3000, "singular": 1200, "border": 1200, "f
 every_arm = pytest.mark.parametrize("name", ARMS)
 
 PAGE = """async () => {
-  const names = ["kinematics", "dexterity", "geometries", "branches", "levers", "motion",
-                 "recorded", "ticks", "target_explorer"];
+  const names = ["angles", "kinematics", "rotations", "dexterity", "geometries", "branches",
+                 "levers", "motion", "recorded", "ticks", "target_explorer"];
   for (const name of names)
     Object.assign(window, await import(`/${name}.js`));
   window.f64 = text => new Float64Array(Uint8Array.from(atob(text), c => c.charCodeAt(0)).buffer);

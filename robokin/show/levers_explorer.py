@@ -28,8 +28,8 @@ SAYS: Mapping[str, str] = {
     "again": "Start again",
     "costSays": "gamma {gamma}°, beta {beta}°, alpha {alpha}°: S = {S}°. The least S is "
     "{least}°, at alpha = {best}°.",
-    "termSays": "gamma {gamma}°, beta {beta}°, alpha {alpha}°: S = {terms} = {S}°; the longest "
-    "turn is {longest}°. The least S is {least}°, at alpha = {best}°: {why}",
+    "termSays": "gamma {gamma}°, beta {beta}°, alpha {alpha}°: S = {terms} {equals} {S}°; the "
+    "longest turn is {longest}°. The least S is {least}°, at alpha = {best}°: {why}",
     "sumSays": " With the earlier {before}°, the total is {all}°. The longest turns add up to "
     "{longest}°.",
     "stays": "{names} keeps its value.",

@@ -24,8 +24,8 @@ def joint_panel(
 
     All motions share one scale, and the panel shows each limit that any motion comes near to, so
     that the scale and the limits do not change while a slider moves. Limits that some motion
-    exceeds come first, since at most three get a label. The limits of joints that are not watched
-    are not shown.
+    exceeds come first, since their labels take the first places. The limits of joints that are not
+    watched are not shown.
     """
     per = ("", "/s", "/s²")[order]
     # for each arm, the least and greatest values: two arrays (motions, n)

@@ -1,7 +1,7 @@
 // Fills the blanks of the sentences from explanations.py and explorer.py with numbers in Python's
 // format.
 
-import {rint} from "./kinematics.js";
+import {rint} from "./angles.js";
 
 /** @typedef {Object<string, string | number>} Facts  the values for the blanks, by name */
 

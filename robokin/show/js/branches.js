@@ -1,6 +1,6 @@
 // Chooses among the rows of `ik` and describes them, as in branches.py and explanations.py.
 
-import {TURN, wrapped} from "./kinematics.js";
+import {TURN, wrapped} from "./angles.js";
 import {exists, leastTravel} from "./rows.js";
 import {geometryOf, ik, singularities} from "./geometries.js";
 import {fill, inWords, oneDecimal} from "./blanks.js";

@@ -165,6 +165,19 @@ export const upright = (g, x, top, bottom, ...look) =>
   );
 
 /**
+ * @type {(g: Context, y: number, left: number, right: number, ...look: Look) => void}
+ */
+export const level = (g, y, left, right, ...look) =>
+  stroke(
+    g,
+    [
+      [left, y],
+      [right, y],
+    ],
+    ...look,
+  );
+
+/**
  * Fills and outlines the path that `draw` traces.
  * @param {Context} g
  * @param {() => void} draw

@@ -1,6 +1,6 @@
 // The curves: panels with a common time axis, one of them large.
 
-import {clear, colors, font, jointColor, number, prepared, stroke, write} from "./canvas.js";
+import {clear, colors, font, jointColor, level, number, prepared, write} from "./canvas.js";
 import {dashes, drawPanel, FAINT, strength} from "./panel.js";
 
 /** @import {Context} from "./canvas.js" */
@@ -52,12 +52,14 @@ export function curvesView(canvas, patterns, unit = "s") {
     // a legend in one row is lower than the name of a plot
     const end = h - 24,
       shown = heights(panels.length, large, end - HEAD).map(([k]) => panels[k]),
+      joints = shown.some(({lines}) => lines.some(({joint}) => joint >= 0)),
       begin = legend(g, entries(patterns, shown, names), left, right);
     let top = begin;
     for (const [k, height] of heights(panels.length, large, end - begin)) {
       /** @type {[number, number, number, number]} */
       const sides = [left, right, top + HEAD, top + HEAD + height];
-      drawPanel({g, patterns, times, x, sides, several: names.length > 1}, panels[k], ticks, now);
+      const ground = {g, patterns, times, x, sides, several: names.length > 1, joints};
+      drawPanel(ground, panels[k], ticks, now);
       top += HEAD + height;
     }
     tellTimes(g, ticks, [t0, t1], x, end + 16, unit);
@@ -132,8 +134,9 @@ function widest(g, panels, axis) {
 }
 
 /**
- * The legend of the joints in these panels, and of the arms if there are several. The lines of the
- * arms have dashes if a quantity is drawn for several arms.
+ * The legend of the joints in these panels, of the arms if there are several, and of the curves of
+ * the opening motion. The dashes tell the joints apart; where there are none, they tell the arms
+ * apart.
  * @param {number[][]} patterns
  * @param {Panel[]} panels
  * @param {string[]} names
@@ -142,8 +145,7 @@ function widest(g, panels, axis) {
 function entries(patterns, panels, names) {
   const all = panels.flatMap(panel => panel.lines),
     lines = all.filter(({joint}) => joint >= 0),
-    joints = [...new Set(lines.map(({joint}) => joint))],
-    dashed = all.some(({joint, arm}) => joint < 0 && arm);
+    joints = [...new Set(lines.map(({joint}) => joint))];
   return [
     ...joints.map(j => ({
       text: `q${j + 1}`,
@@ -155,8 +157,11 @@ function entries(patterns, panels, names) {
       text,
       color: colors.ink,
       width: strength(arm),
-      dash: dashed ? dashes(patterns, arm, strength(arm)) : [],
+      dash: dashes(patterns, joints.length ? 0 : arm, strength(arm)),
     })),
+    ...(all.some(({opening, faint}) => opening && !faint)
+      ? [{text: "faint: the opening motion", color: clear(colors.ink, FAINT), width: 1.2, dash: []}]
+      : []),
   ];
 }
 
@@ -171,18 +176,15 @@ function entries(patterns, panels, names) {
 function legend(g, legend, left, right) {
   let x = left,
     y = 13;
+  g.lineCap = "butt"; // as the curves, or the gaps of dashes would be shorter
   for (const {text, color, width, dash} of legend) {
     g.font = font(12);
     const wide = 30 + g.measureText(text).width;
     if (x > left && x + wide > right + 8) [x, y] = [left, y + 16];
-    /** @type {[number, number][]} */
-    const sample = [
-      [x, y - 4],
-      [x + 24, y - 4],
-    ];
-    stroke(g, sample, color, width, dash);
+    level(g, y - 4, x, x + 24, color, width, dash);
     write(g, text, x + 28, y, colors.ink, 12);
     x += wide + 8;
   }
+  g.lineCap = "round";
   return legend.length ? y + 2 : 0;
 }

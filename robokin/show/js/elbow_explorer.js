@@ -2,6 +2,7 @@
 // arm bends, and the triangle of upper arm, forearm and the line to the point follows. All text
 // and the arm data come from Python (explorer_page.py: ElbowPage).
 
+import {wrapped} from "./angles.js";
 import {excess, representative, within} from "./branches.js";
 import {fill, inWords} from "./blanks.js";
 import {number} from "./canvas.js";
@@ -10,7 +11,6 @@ import {elbowPicture} from "./elbow_picture.js";
 import {element, waiting} from "./elements.js";
 import {geometryOf, ik, singularities} from "./geometries.js";
 import {inScreen} from "./handles.js";
-import {wrapped} from "./kinematics.js";
 import {clamp, distance2, exists} from "./rows.js";
 import {frameOf, slider} from "./stage.js";
 import {table} from "./table.js";

@@ -5,7 +5,9 @@
 // so that both agree to the last bit. Math.hypot, ** and Math.round differ from NumPy and are not
 // used.
 
-import {matrix, origin, product, wrapped} from "./kinematics.js";
+import {wrapped} from "./angles.js";
+import {origin} from "./kinematics.js";
+import {matrix, product} from "./rotations.js";
 import {distance2, nowhere} from "./rows.js";
 import {SIGNS, twoLevers, worst} from "./two_levers.js";
 

@@ -3,7 +3,7 @@
 
 import {TRIAD} from "./arm_picture.js";
 import {distance_from_singularity} from "./dexterity.js";
-import {fk, origin, plus, quaternion, turned} from "./kinematics.js";
+import {fk, origin, plus, turned} from "./kinematics.js";
 import {singularities} from "./geometries.js";
 import {fill} from "./blanks.js";
 import {point} from "./mark.js";
@@ -13,6 +13,7 @@ import {element, waiting} from "./elements.js";
 import {ellipsoidMenu} from "./ellipsoid_menu.js";
 import {alongCurve} from "./handles.js";
 import {around, drawRings, ringAt, ringsOf} from "./joint_ring.js";
+import {quaternion} from "./rotations.js";
 import {slider, stageOf, tick} from "./stage.js";
 import {table} from "./table.js";
 import {degrees, inUnits, rollPitchYaw} from "./turns.js";

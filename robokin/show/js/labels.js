@@ -23,6 +23,7 @@ const GAPS = [5, 14, 26, 40, 58, 84], // px between a point and its label
   TURNS = 12, // the number of directions
   NEAR = 3 * TURNS, // the number of places without a line
   HIGH = 16, // px: the height of a label
+  REACH = 40, // px: the directions of the base and a letter beside them are this near to their centre
   TIP = 2 * TURNS, // the number of places close enough to the end of a line
   MOST = 40, // the cost above which a label with `near` is left out
   TIPS = 12; // the same for a label with `tip`
@@ -66,18 +67,18 @@ export function placeLabels(g, labels, [left, top, width, height], handles = [])
         if (x > u - r && x < u + wide + r && y > v - r && y < v + HIGH + r) cost += heavy;
         if (cost >= least) break;
       }
+      if (k >= NEAR && !away && crossed(close, px, py, ...line(px, py, u, v, wide))) cost += WORD;
       if (cost < least) [least, bestX, bestY, place] = [cost, u, v, k];
     }
     if (least > (tip ? TIPS : near ? MOST : Infinity)) continue;
     if (place >= NEAR && !away) {
-      const u = between(px, bestX, wide),
-        v = between(py, bestY, HIGH);
+      const [dx, dy] = line(px, py, bestX, bestY, wide);
       // the line does not reach the dot at the point
       stroke(
         g,
         [
-          [u, v],
-          [(4 * px + u) / 5, (4 * py + v) / 5],
+          [px + dx, py + dy],
+          [px + dx / 5, py + dy / 5],
         ],
         color,
         1,
@@ -86,6 +87,41 @@ export function placeLabels(g, labels, [left, top, width, height], handles = [])
     write(g, text, bestX + 2, bestY + 12, color, 12, "left", weight);
   }
 }
+
+/**
+ * The place with the least ink within REACH; of several such places, the first.
+ * @param {Pixel[]} places
+ * @param {Box[]} handles
+ */
+export function freest(places, handles) {
+  /** @type {Dot[]} */
+  const dots = [];
+  for (const each of [...ink, ...handles.map(wordInk)]) mark(dots, each);
+  const costs = places.map(([px, py]) =>
+    dots.reduce(
+      (sum, {x, y, r, heavy}) => (Math.hypot(x - px, y - py) < r + REACH ? sum + heavy : sum),
+      0,
+    ),
+  );
+  return places[costs.indexOf(Math.min(...costs))];
+}
+
+/**
+ * The line from a point to a label whose upper left corner is (u, v).
+ * @type {(px: number, py: number, u: number, v: number, wide: number) => Pixel}
+ */
+const line = (px, py, u, v, wide) => [between(px, u, wide) - px, between(py, v, HIGH) - py];
+
+/**
+ * Whether a line from a point goes through words, beyond what is at the point itself.
+ * @type {(dots: Dot[], px: number, py: number, dx: number, dy: number) => boolean}
+ */
+const crossed = (dots, px, py, dx, dy) =>
+  dots.some(({x, y, r, heavy}) => {
+    const share = ((x - px) * dx + (y - py) * dy) / (dx * dx + dy * dy);
+    const aside = Math.hypot(x - px - share * dx, y - py - share * dy);
+    return heavy === WORD && share > 0.2 && share < 1 && aside < r;
+  });
 
 /** @type {(x: number, low: number, size: number) => number} */
 const between = (x, low, size) => Math.max(low, Math.min(low + size, x));

@@ -4,6 +4,7 @@
 import {
   colors,
   jointColor,
+  level,
   number,
   polygon,
   prepared,
@@ -144,22 +145,11 @@ function plotOf(g, w, h, limits, [least, most]) {
  * @param {number[]} values
  */
 function drawLevels({g, left, right, bottom, y}, values) {
-  /** @type {(py: number) => void} */
-  const level = py =>
-    stroke(
-      g,
-      [
-        [left, py],
-        [right, py],
-      ],
-      colors.grid,
-      1,
-    );
-  level(bottom);
+  level(g, bottom, left, right, colors.grid, 1);
   /** @type {number[]} */
   const taken = [];
   for (const value of values.toSorted((a, b) => b - a)) {
-    level(y(value));
+    level(g, y(value), left, right, colors.grid, 1);
     if (taken.some(py => Math.abs(py - y(value)) < LINE)) continue;
     taken.push(y(value));
     const text = `${number(degrees(value), 0)}\u00B0`;
@@ -202,14 +192,11 @@ function tellLines({g, top, bottom}, px, {terms, dashes}, ends) {
   }
   for (const {text, j, py} of names) {
     const [color, dash] = j < terms.length ? [jointColor(j), dashes[j]] : [colors.ink, []];
-    /** @type {Pixel[]} */
-    const piece = [
-      [px, py - 4],
-      [px + 13, py - 4],
-    ];
-    stroke(
+    level(
       g,
-      piece,
+      py - 4,
+      px,
+      px + 13,
       color,
       1.8,
       dash.map(x => 1.8 * x),
@@ -231,8 +218,8 @@ function diamond(g, [x, y]) {
 }
 
 /**
- * Writes both ends of the range of the free angle below the axis, and each limit for which
- * there is room.
+ * Writes both ends of the range of the free angle below the axis, side by side if the range is
+ * narrow, and each limit for which there is room.
  * @param {Plot} plot
  * @param {Costs} costs
  */
@@ -243,9 +230,10 @@ function drawAngles({g, x, bottom}, {low, high, limits}) {
       text = `${number(degrees(value), decimals)}\u00B0`;
     write(g, text, x(value) + gap, bottom + 14, color, 11, align);
   };
-  name(low, 1, colors.ink, -3);
-  name(high, 1, colors.ink, 3);
   const room = 60; // px: the width of the text at one end, and half the width of a limit
+  const gap = x(high) - x(low) < room ? 3 : 0;
+  name(low, 1, colors.ink, -gap);
+  name(high, 1, colors.ink, gap);
   if (x(low) > x(limits[0]) + room) name(limits[0], 0, colors.soft, 0);
   if (x(high) < x(limits[1]) - room) name(limits[1], 0, colors.soft, 0);
 }

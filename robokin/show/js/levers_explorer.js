@@ -230,7 +230,10 @@ function told({words: says, curve}, state, {q, changes, best, fewest, low, high}
     : ends
       ? says.atEnd
       : says.isLevel;
-  const terms = changes.map(change => `${inDegrees(change)}\u00B0`).join(" + ");
+  const shown = changes.map(inDegrees),
+    terms = shown.map(text => `${text}\u00B0`).join(" + ");
+  // rounded terms may add up to another value than the rounded sum
+  const equals = number(total(shown.map(Number)), 1) === S ? "=" : "\u2248";
   const [all, largest] = [total(changes), Math.max(...changes)];
   const sums = {
     before: inDegrees(state.turned),
@@ -244,6 +247,7 @@ function told({words: says, curve}, state, {q, changes, best, fewest, low, high}
       alpha,
       S,
       terms,
+      equals,
       longest: inDegrees(largest),
       ...least,
       why,

@@ -1,6 +1,6 @@
 // Paths, time laws and derivatives, as in motion/paths.py, laws.py, derivatives.py, maximum.py.
 
-import {slerp} from "./kinematics.js";
+import {slerp} from "./rotations.js";
 
 /** @import {PagePose} from "./page.js" */
 

@@ -120,28 +120,44 @@ function jointPanel(data, order, motion, opening, recordings) {
   /** @type {Panel["near"]} */
   const limits = [];
   data.arms.forEach((arm, k) => {
-    const first = lines.length,
-      values = recordings[k].quantity(order, motion),
-      before = motion === opening ? null : recordings[k].quantity(order, opening),
-      gaps = new Set(arm.gaps[motion]),
-      gapsBefore = new Set(arm.gaps[opening]);
+    const first = lines.length;
     arm.chain.forEach((link, joint) =>
       lines.push({
-        values: values[joint],
-        opening: before && {values: before[joint], gaps: gapsBefore},
+        ...lineOf(data, k, motion, opening, of => recordings[k].quantity(order, of)[joint]),
         joint,
-        arm: k,
         axis: kinds.indexOf(link.prismatic ? "shift" : "turn"),
         faint: !!data.watch.joints && !data.watch.joints.includes(joint),
-        gaps,
         limits: limitsOf(arm, order, joint),
-        now: NaN,
       }),
     );
     for (const [joint, side] of near[k]) limits.push([first + joint, side]);
   });
   const marks = data.arms.flatMap(arm => marksOf(data, arm, order, motion));
   return {label, axes: Object.values(axes), lines, near: unlike(lines, limits), marks};
+}
+
+/**
+ * The curve of a quantity that belongs to no joint.
+ * @param {Page} data
+ * @param {number} arm
+ * @param {number} motion
+ * @param {number} opening
+ * @param {(motion: number) => Float64Array} of  its values
+ * @returns {Line}
+ */
+function lineOf(data, arm, motion, opening, of) {
+  /** @type {(motion: number) => Pick<Line, "values" | "gaps">} */
+  const during = motion => ({values: of(motion), gaps: new Set(data.arms[arm].gaps[motion])});
+  return {
+    ...during(motion),
+    opening: motion === opening ? null : during(opening),
+    joint: -1,
+    arm,
+    axis: 0,
+    faint: false,
+    limits: null,
+    now: NaN,
+  };
 }
 
 /**
@@ -192,20 +208,7 @@ function marksOf(data, {name, leaps, jumps}, order, motion) {
  */
 function quantityPanel(data, k, motion, opening, of) {
   const {label, scale} = data.quantities[k];
-  const lines = of.map((values, arm) => ({
-    values: values(motion),
-    opening:
-      motion === opening
-        ? null
-        : {values: values(opening), gaps: new Set(data.arms[arm].gaps[opening])},
-    joint: -1,
-    arm,
-    axis: 0,
-    faint: false,
-    gaps: new Set(data.arms[arm].gaps[motion]),
-    limits: null,
-    now: NaN,
-  }));
+  const lines = of.map((values, arm) => lineOf(data, arm, motion, opening, values));
   return {label, axes: [{unit: "", scale}], lines, near: [], marks: []};
 }
 

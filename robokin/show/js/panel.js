@@ -4,6 +4,7 @@ import {
   clear,
   colors,
   jointColor,
+  level,
   number,
   polygon,
   spot,
@@ -46,9 +47,11 @@ import {lineColor, panelWords, shade} from "./panel_words.js";
 /** @typedef {[left: number, right: number, top: number, bottom: number]} Sides */
 /**
  * The data for drawing a panel: the canvas, the dashes of the joints' lines, the times and their
- * places, the sides of the panel, and whether it shows several arms.
+ * places, the sides of the panel, whether it shows several arms, and whether joints have dashes in
+ * this picture.
  * @typedef {{
  *   g: Context, patterns: number[][], times: Times, x: Place, sides: Sides, several: boolean,
+ *   joints: boolean,
  * }} Ground
  */
 
@@ -148,12 +151,7 @@ function drawGrid({g, x, sides: [left, right, top, bottom]}, [low, step, count],
   for (let i = 0; i < count; i++) {
     const value = low + i * step,
       color = Math.abs(value) < step / 9 ? colors.line : colors.grid;
-    /** @type {Pixel[]} */
-    const line = [
-      [left, y(value)],
-      [right, y(value)],
-    ];
-    stroke(g, line, color, 1);
+    level(g, y(value), left, right, color, 1);
   }
   for (let i = 0; i < ticks[2]; i++)
     upright(g, x(ticks[0] + i * ticks[1]), top, bottom, colors.grid, 1);
@@ -213,15 +211,7 @@ function band(g, at, side, left, right, color) {
   fade.addColorStop(1, clear(color, 0.05));
   g.fillStyle = fade;
   g.fillRect(left, at, right - left, -12 * side);
-  stroke(
-    g,
-    [
-      [left, at],
-      [right, at],
-    ],
-    color,
-    1,
-  );
+  level(g, at, left, right, color, 1);
 }
 
 /**
@@ -246,7 +236,7 @@ function placed({times, x}, {values, gaps}, y) {
  * @param {Place} y
  */
 function curve(ground, line, y) {
-  const {g, patterns, several} = ground,
+  const {g, patterns, several, joints} = ground,
     points = placed(ground, line, y),
     width = several ? strength(line.arm) : 2;
   if (!line.faint && line.limits) {
@@ -256,7 +246,8 @@ function curve(ground, line, y) {
   }
   g.lineCap = "butt";
   const color = line.faint ? clear(lineColor(line), FAINT) : lineColor(line);
-  // a quantity has no joint: its dashes tell the arms apart
-  stroke(g, points, color, width, dashes(patterns, line.joint < 0 ? line.arm : line.joint, width));
+  // a quantity has no joint: its dashes tell the arms apart, unless dashes stand for joints
+  const kind = line.joint >= 0 ? line.joint : joints ? 0 : line.arm;
+  stroke(g, points, color, width, dashes(patterns, kind, width));
   g.lineCap = "round";
 }

@@ -5,7 +5,8 @@ import {colors, font, hit, jointColor, number} from "./canvas.js";
 /** @import {Box, Context} from "./canvas.js" */
 /** @import {Line, Mark, Note, Panel, Place, Sides, Times} from "./panel.js" */
 
-const MOST = 16; // pixels of curves: no text covers so many
+const MOST = 16, // pixels of curves: no text covers so many
+  BAND = 8; // px: farther from its limit, a band is too faint to claim a text
 
 /** The colour of a line. @type {(line: Line) => string} */
 export const lineColor = ({joint}) => (joint < 0 ? colors.ink : jointColor(joint));
@@ -35,7 +36,8 @@ export function panelWords(g, panel, ys, times, x, sides) {
 
 /**
  * For a row of text, a function of the left end and the width of the text: how many pixels of
- * curves it covers, and 20 more for each limit.
+ * curves it covers, and 20 more for each limit that it crosses and for each band that it touches,
+ * except its own.
  * @param {Panel} panel
  * @param {Place[]} ys
  * @param {Times} times
@@ -45,9 +47,13 @@ export function panelWords(g, panel, ys, times, x, sides) {
 function cover({lines, near}, ys, times, x, [left, right]) {
   const each = (right - left) / times.length,
     levels = near.map(([k, side]) => ys[k](lines[k].limits?.[side] ?? NaN));
-  /** @type {(y: number, high: number) => (px: number, w: number) => number} */
-  return (y, high) => {
-    const crossed = 20 * levels.filter(level => level > y && level < y + high).length;
+  /** @type {(y: number, high: number, own?: number) => (px: number, w: number) => number} */
+  return (y, high, own = NaN) => {
+    const hidden = levels.filter((level, i) => {
+      const [above, below] = near[i][1] ? [BAND, 0] : [0, BAND];
+      return level !== own && level > y - below && level < y + high + above;
+    });
+    const crossed = 20 * hidden.length;
     /** @type {number[]} */
     const xs = [];
     lines.forEach(({values}, i) =>
@@ -94,7 +100,7 @@ function noted(g, marks, x, [left, right, top, bottom], cost) {
 
 /**
  * The text of the limits: next to their lines, clear of other text and almost clear of the curves.
- * At most three limits have text. A limit for which there is no such place has only its band.
+ * A limit for which there is no such place has only its band.
  * @param {Context} g
  * @param {Panel} panel
  * @param {Place[]} ys  the height of a value, for each line
@@ -121,12 +127,12 @@ function limitWords(g, panel, ys, [left, right, top, bottom], notes, cost) {
     let least = MOST;
     for (const y of side ? [at - 13, at + 2] : [at + 2, at - 13]) {
       if (y < top + 1 || y + 11 > bottom - 1) continue;
-      const over = cost(y, 11);
+      const over = cost(y, 11, at);
       for (let px = left + 5; px + w + 5 < right; px += 6)
         if (over(px, w) < least && !hit([px - 4, y, w + 8, 11], taken))
           [best, least] = [[px, y, w, 11], over(px, w)];
     }
-    if (best && found.length < 3) found.push([text, best, shade(lineColor(line)), 10]);
+    if (best) found.push([text, best, shade(lineColor(line)), 10]);
   }
   return found;
 }

@@ -209,6 +209,7 @@ function armOn(data, {time}, ways, chosen) {
     chain,
     q: way ? postureAt(data, way, time) : postures(data, [data.start])[0],
     faded: !way,
+    around: () => ways.flatMap(each => each?.path ?? []),
     under: (g, camera) =>
       ways.forEach((each, k) => each && drawPath(g, camera, each, LETTERS[k], k === chosen)),
     over: (g, {to}) =>

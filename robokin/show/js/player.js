@@ -147,13 +147,11 @@ const labelsOf = data =>
  * @param {HTMLElement} part
  */
 function folding(name, part) {
-  const button = control("button", {
-    type: "button",
-    class: "rk-word",
-    "aria-label": name,
-    "aria-expanded": "false",
-  });
-  button.textContent = name;
+  const button = control(
+    "button",
+    {type: "button", class: "rk-word", "aria-expanded": "false"},
+    name,
+  );
   part.hidden = true;
   button.addEventListener("click", () => {
     part.hidden = !part.hidden;

@@ -2,10 +2,21 @@
 
 import {drawFlange, drawRods, drawShadow, drawStood, stood} from "./arm_picture.js";
 import {camera} from "./camera.js";
-import {clear, colors, ink, polygon, prepared, stroke, tiled, write} from "./canvas.js";
+import {
+  clear,
+  colors,
+  font,
+  ink,
+  polygon,
+  prepared,
+  stroke,
+  tiled,
+  upright,
+  write,
+} from "./canvas.js";
 import {frames, origin} from "./kinematics.js";
 import {kinds} from "./kinds.js";
-import {placeLabels} from "./labels.js";
+import {freest, placeLabels} from "./labels.js";
 import {compass} from "./triad.js";
 
 /** @import {PageLink, PageScene, PageThing, Unit} from "./page.js" */
@@ -42,8 +53,6 @@ import {compass} from "./triad.js";
  * @property {(cam: Camera) => Point[]} [around]  points, besides those of the arm, that a growing
  *   scene must show
  * @property {(cam: Camera) => Box[]} [handles]  the boxes of its handles, which no label covers
- * @property {(cell: Box, handles: Box[]) => Pixel} [compassAt]  where the directions of the base
- *   are, if not at the lower right
  */
 /** @typedef {ReturnType<typeof surroundings>} Space  the fixed surroundings of a scene */
 /**
@@ -117,10 +126,14 @@ export function sceneView(canvas, scene) {
     });
     const {grid, unit} = scene,
       scale = `grid ${+(grid / unit.size).toPrecision(6)} ${unit.name}`;
+    g.font = font(12);
+    const wide = g.measureText(scale).width;
+    // no line goes through the scale
+    g.fillStyle = colors.paper;
+    g.fillRect(8, h - 20, wide + 4, 16);
     write(g, scale, 10, h - 8, colors.soft, 12);
     // several arms have their names at the top
-    if (pictures.length > 1)
-      write(g, clock, 26 + g.measureText(scale).width, h - 8, colors.ink, 13, "left", "600");
+    if (pictures.length > 1) write(g, clock, 26 + wide, h - 8, colors.ink, 13, "left", "600");
     else write(g, clock, w - 10, 18, colors.ink, 13, "right", "600");
     return true;
   }
@@ -227,12 +240,7 @@ function drawCell(pen, arms, cell, named) {
   g.clip();
   drawSpace(pen, arms, cell, named);
   g.restore();
-  /** @type {Pixel[]} */
-  const line = [
-    [x, y + 10],
-    [x, y + h - 10],
-  ];
-  if (x) stroke(g, line, colors.grid, 1);
+  if (x) upright(g, x, y + 10, y + h - 10, colors.grid, 1);
 }
 
 /**
@@ -273,7 +281,14 @@ function drawSpace(pen, arms, [x, y, w, h], named) {
   for (const kind in KINDS) KINDS[kind].above({...pen, near: first.near}, only(kind), ofThings);
   labels.push(...all.flatMap(drawFlange), ...ofThings); // a flange is drawn over its target
   const handles = first.handles?.(all[0].cam) ?? [];
-  compass(g, cam, first.compassAt?.([x, y, w, h], handles) ?? [x + w - 34, y + h - 34]);
+  const [right, high] = [x + w - 34, y + 60];
+  /** @type {Pixel[]} */
+  const corners = [
+    [right, y + h - 34],
+    [right, high],
+    [x + 34, high],
+  ];
+  compass(g, cam, freest(corners, handles));
   if (named) write(g, first.name, x + 10, y + 18, colors.ink, 13, "left", "600");
   if (arms.some(arm => arm.faded)) {
     const at = /** @type {Pixel} */ ([x + w / 2, y]),

@@ -2,8 +2,9 @@
 // singularity and sees how fast joint 4 has to turn there. All text and the arm data come from
 // Python (explorer_page.py: SingularityPage).
 
+import {TURN} from "./angles.js";
 import {jointSpeeds} from "./dexterity.js";
-import {TURN, plus} from "./kinematics.js";
+import {plus} from "./kinematics.js";
 import {ik, singularities} from "./geometries.js";
 import {onward} from "./branches.js";
 import {fill} from "./blanks.js";

@@ -10,7 +10,7 @@ import {handleLayer} from "./handles.js";
 import {range} from "./sliders.js";
 
 /** @import {Control, PageExplorer} from "./page.js" */
-/** @import {Box, Context, Pixel} from "./canvas.js" */
+/** @import {Context} from "./canvas.js" */
 /** @import {Camera} from "./camera.js" */
 /** @import {Draw, Shown} from "./scene.js" */
 
@@ -53,11 +53,7 @@ export function stageOf(root, data) {
         arm.over?.(g, cam);
         drawAids(g, cam, arm, scene.size);
       };
-      return view.draw(
-        state.view,
-        [{...arm, over, handles: stage.handles.place, compassAt}, ...more],
-        "",
-      );
+      return view.draw(state.view, [{...arm, over, handles: stage.handles.place}, ...more], "");
     },
   });
   orbit(canvas, scene, state, stage.ask);
@@ -65,23 +61,6 @@ export function stageOf(root, data) {
   const name = alt => canvas.setAttribute("aria-label", spoken(scene, alt));
   return {...stage, scene, name};
 }
-
-/**
- * The centre of the base's directions: at the lower right, or higher if a handle is there.
- * @param {Box} cell
- * @param {Box[]} handles
- * @returns {Pixel}
- */
-function compassAt([x, y, w, h], handles) {
-  const [right, low] = [x + w - 34, y + h - 34];
-  const taken = handles.some(
-    ([left, top, wide, high]) =>
-      Math.abs(left + wide / 2 - right) < NEAR + wide / 2 &&
-      Math.abs(top + high / 2 - low) < NEAR + high / 2,
-  );
-  return [right, taken ? y + 60 : low];
-}
-const NEAR = 28; // px: the directions reach this far from their centre
 
 /**
  * The frame of an explorer: a picture with handles over it, a column of controls next to it, and

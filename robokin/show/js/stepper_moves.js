@@ -1,8 +1,9 @@
 // Moves of stepper motors between two points, as in jobs/steppers/moves.py: the motor positions
 // over time, in pulses, and the gripper's path.
 
+import {rint, TURN, wrapped} from "./angles.js";
 import {elbowRow} from "./geometries.js";
-import {distance, dot, fk, origin, plus, rint, TURN, wrapped} from "./kinematics.js";
+import {distance, dot, fk, origin, plus} from "./kinematics.js";
 import {clamp, distance2, exists, nowhere} from "./rows.js";
 import {radians} from "./turns.js";
 

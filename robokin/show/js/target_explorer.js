@@ -1,8 +1,8 @@
 // The target explorer: a target to drag, and all branches that reach it. All text and the arm data
 // come from Python (explorer_page.py: TargetPage).
 
+import {wrapped} from "./angles.js";
 import {distance_from_singularity} from "./dexterity.js";
-import {matrix, wrapped} from "./kinematics.js";
 import {ik, singularities} from "./geometries.js";
 import {explain, nearest, nearestLimit, representative, within} from "./branches.js";
 import {fill} from "./blanks.js";
@@ -11,6 +11,7 @@ import {copyButton} from "./copy.js";
 import {element, waiting} from "./elements.js";
 import {ellipsoidMenu} from "./ellipsoid_menu.js";
 import {point} from "./mark.js";
+import {matrix} from "./rotations.js";
 import {menu, slider, stageOf, tick} from "./stage.js";
 import {table} from "./table.js";
 import {frame} from "./target.js";

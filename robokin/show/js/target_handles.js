@@ -3,7 +3,8 @@
 import {fill} from "./blanks.js";
 import {number} from "./canvas.js";
 import {alongCurve, inScreen, reachOf} from "./handles.js";
-import {dot, matrix, plus, product} from "./kinematics.js";
+import {dot, plus} from "./kinematics.js";
+import {matrix, product} from "./rotations.js";
 import {AXES} from "./triad.js";
 import {aboutAxis, degrees, normal, radians, rollPitchYaw, rotationOf} from "./turns.js";
 

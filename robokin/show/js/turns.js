@@ -1,6 +1,6 @@
 // Rotations as roll, pitch and yaw, and values as Python code.
 
-import {product} from "./kinematics.js";
+import {product} from "./rotations.js";
 
 /** @import {PageUnit, Unit} from "./page.js" */
 

@@ -1,0 +1,299 @@
+"""Nothing that is drawn hides a number, a letter or the directions of the base, on a phone and with
+all sliders at their ends. `test_fit.py` tests this for the words of whole labs.
+"""
+
+import numpy as np
+import pytest
+import test_player
+from canvas_words import COVERED, NEXT, RECORD
+from conftest import awake
+
+from robokin import (
+    IRB140,
+    ITMO6R,
+    PUMA560,
+    Quaternion,
+    Transform,
+    deg,
+    follow,
+    lin,
+    linear,
+    loader_arm,
+    ptp,
+    three_lever,
+    turning_base,
+)
+from robokin.show import animate, joint_explorer, movement_explorer, paths_explorer
+from robokin.show.palette import PAGE
+
+page = test_player.page
+PHONE = 390, 324  # px: the page of a view; one whose view is as narrow as that of a lab
+LEVERS = three_lever(1.0)
+# `canvas.lines`: the points (px), colour, width and dash of all lines in the last picture
+LINES = """{
+  const pen = CanvasRenderingContext2D.prototype;
+  const {clearRect, beginPath, moveTo, lineTo, stroke} = pen;
+  Object.assign(pen, {
+    clearRect(...all) { this.canvas.lines = []; return clearRect.apply(this, all); },
+    beginPath() { this.line = []; return beginPath.call(this); },
+    moveTo(x, y) { this.line.push([x, y]); return moveTo.call(this, x, y); },
+    lineTo(x, y) { this.line.push([x, y]); return lineTo.call(this, x, y); },
+    stroke() {
+      const width = +this.lineWidth.toFixed(2); // a canvas keeps 32 bits of it
+      const [points, color, dash] = [this.line, this.strokeStyle, this.getLineDash()];
+      this.canvas.lines?.push({points, color, width, dash});
+      return stroke.call(this);
+    },
+  });
+}"""
+# Moves sliders to values
+TO_VALUES = """values => {
+  for (const slider of document.querySelectorAll("input[type=range]")) {
+    const value = values[slider.ariaLabel.split(",")[0]];
+    if (value === undefined) continue;
+    slider.value = value;
+    slider.dispatchEvent(new Event("input", {bubbles: true}));
+  }
+}"""
+# `canvas.rings`: the centres of the rings on paths in the last picture
+RINGS = """{
+  const pen = CanvasRenderingContext2D.prototype, {clearRect, arc} = pen;
+  pen.clearRect = function (...all) { this.canvas.rings = []; return clearRect.apply(this, all); };
+  pen.arc = function (x, y, r, ...more) {
+    if (r === 4.5) this.canvas.rings.push([x, y]);
+    return arc.call(this, x, y, r, ...more);
+  };
+}"""
+# Moves all sliders whose name begins with a text to the same end
+TO_END = """([end, name]) => {
+  for (const slider of document.querySelectorAll("input[type=range]"))
+    if (slider.checkVisibility() && slider.ariaLabel.startsWith(name)) {
+      slider.value = slider[end];
+      slider.dispatchEvent(new Event("input", {bubbles: true}));
+    }
+}"""
+
+
+def shown(page, view, tmp_path, width, end, name, *scripts):
+    """Open a view on a phone, with all sliders whose name begins with `name` at one end."""
+    for script in scripts:
+        page.add_init_script(script)
+    page.set_viewport_size({"width": width, "height": 900})
+    view.save(tmp_path / "view.html")
+    page.goto((tmp_path / "view.html").as_uri())
+    awake(page)
+    page.evaluate(TO_END, [end, name])
+    page.evaluate(NEXT)
+    return page
+
+
+def two_tasks():
+    """Two arms, one above the other, whose tools begin near the lower right corner."""
+    t = np.linspace(0, 3, 61)
+    begin = np.array([60, 120, 120]) * deg
+    first = LEVERS.least((2.4, 0.4), begin)[0]
+    ends = [first, LEVERS.least((-2.1, 1.2), first)[0]]
+    q = np.stack([ptp(begin, end, t / 3) for end in ends])
+    watched = {"turned so far, °": [np.zeros(q.shape[:2])] * 2}
+    return animate([LEVERS] * 2, t, [q, q], slider=("end", [0, 1]), joints=[], quantities=watched)
+
+
+def chain():
+    return joint_explorer(turning_base(LEVERS), np.array([0, 100, 110, 120]) * deg)
+
+
+@pytest.mark.parametrize("end", ["min", "max"])
+@pytest.mark.parametrize("width", PHONE)
+@pytest.mark.parametrize("view", [two_tasks, chain])
+def test_directions_of_the_base_are_apart_from_the_arm(page, tmp_path, view, width, end):
+    shown(page, view(), tmp_path, width, end, "", LINES)
+    lines = page.evaluate("document.querySelector('canvas').lines")
+    axes = [PAGE[name][0].lower() for name in "xyz"]
+    corners = [
+        line["points"][0] for line in lines if line["width"] == 1.4 and line["color"] in axes
+    ]
+    assert corners, "the directions are not drawn"
+    drawn = np.concatenate([along(line) for line in lines if line["width"] >= 1.8])
+    assert len(drawn) > 100
+    for corner in corners:
+        assert np.linalg.norm(drawn - corner, axis=-1).min() > 30
+
+
+def along(line):
+    """Points on a line (k, 2)."""
+    points = np.array(line["points"], float).reshape(-1, 2)
+    shares = np.linspace(0, 1, 20)[:, None, None]
+    return (points[:-1] + shares * np.diff(points, axis=0)).reshape(-1, 2)
+
+
+@pytest.mark.parametrize("end", ["min", "max"])
+@pytest.mark.parametrize("width", PHONE)
+def test_no_joint_axis_goes_through_the_scale(page, tmp_path, width, end):
+    shown(page, joint_explorer(ITMO6R), tmp_path, width, end, "")
+    page.evaluate(COVERED, ["^grid", [f"joint{j}" for j in range(1, 7)]])
+    page.evaluate(TO_END, [end, ""])
+    page.evaluate(NEXT)
+    covered = page.evaluate("covered")
+    assert covered and not any(pixels for _, pixels in covered), covered
+
+
+def paths():
+    return paths_explorer(
+        loader_arm(0.45, 0.30), (0.6, -0.35, 0.05), (0.05, 0.25, 0.35), [10, 40, 40]
+    )
+
+
+@pytest.mark.parametrize("width", PHONE)
+@pytest.mark.parametrize("end", ["min", "max"])
+@pytest.mark.parametrize("goal", [(-320, 160, 640), (50, 250, 350), (200, 250, 100)])
+def test_all_paths_are_in_the_picture_and_no_letter_stands_on_a_ring(
+    page, tmp_path, goal, end, width
+):
+    shown(page, paths(), tmp_path, width, "min", "time", LINES, RECORD, RINGS)
+    page.evaluate(TO_VALUES, dict(zip("xyz", goal, strict=True)))
+    page.evaluate(NEXT)
+    page.evaluate(TO_END, [end, "time"])
+    page.evaluate(NEXT)
+    canvas = page.evaluate(
+        """() => {
+          const canvas = document.querySelector("canvas");
+          const {clientWidth: width, clientHeight: height, lines, rings} = canvas;
+          return {width, height, lines, rings, words: canvasWords()[0].words};
+        }"""
+    )
+    drawn = [line for line in canvas["lines"] if len(line["points"]) > 20 and line["width"] >= 2]
+    assert len(drawn) == 3
+    for line in drawn:
+        points = np.array(line["points"])
+        assert (points > 0).all() and (points < [canvas["width"], canvas["height"]]).all()
+    letters = [word["box"] for word in canvas["words"] if word["text"] in ("a", "c", "d")]
+    assert len(letters) == 3 and canvas["rings"]
+    for left, top, wide, high in letters:
+        for ring in canvas["rings"]:
+            nearest = np.clip(ring, [left, top], [left + wide, top + high])
+            assert np.linalg.norm(nearest - ring) > 4.5
+
+
+def test_letter_of_a_handle_outside_the_picture_is_opaque(page, tmp_path):
+    shown(page, paths(), tmp_path, PHONE[0], "max", "z")
+    handle = page.locator(".rk-outside").first
+    looks = handle.evaluate(
+        """node => {
+          const {backgroundColor} = getComputedStyle(node, "::before");
+          return [getComputedStyle(node).opacity, backgroundColor];
+        }"""
+    )
+    assert looks == ["1", "rgb(255, 255, 255)"]
+
+
+def race(joints=None):
+    """Two arms that start together, with two words at their tools."""
+    t = np.linspace(0, 2, 41)
+    begin, end = np.array([[63, 30, 15, -90, -63, -45], [-56, 20, 10, -60, -80, -20]]) * deg
+    runs = [[ptp(begin, share * end, linear(time)(t)) for share in (0.6, 1)] for time in (1, 2)]
+    tools = [IRB140.fk(np.array(run)).translation for run in runs]
+    clock = np.broadcast_to(t, (2, 41))
+    names = ["LIN", "PTP"]
+    return animate(
+        [IRB140] * 2,
+        t,
+        runs,
+        names=names,
+        bases=np.zeros((2, 2)),
+        points={f"{name}, s": each for name, each in zip(names, tools, strict=True)},
+        readings={f"{name}, s": clock for name in names},
+        targets={"start": IRB140.fk(begin), "goal": IRB140.fk(end)},
+        slider=("share", [0.6, 1]),
+        quantities={"way, m": [each[..., 2] for each in tools]},
+        joints=joints,
+    )
+
+
+@pytest.mark.parametrize("width", [*PHONE, 1366])
+def test_line_from_a_word_to_its_point_goes_through_no_other_word(page, tmp_path, width):
+    shown(page, race(), tmp_path, width, "min", "", LINES, RECORD)
+    [lines, words] = page.evaluate(
+        "[document.querySelector('canvas').lines, canvasWords()[0].words]"
+    )
+    soft = PAGE["soft"][0].lower()
+    leaders = [line for line in lines if line["width"] == 1 and line["color"] == soft]
+    assert [word["text"] for word in words if word["text"].endswith("0.00")], "no readings"
+    assert leaders or width == 324, "no word is far from its point"
+    for left, top, wide, high in [word["box"] for word in words if word["box"][2]]:
+        for x, y in np.concatenate([along(line) for line in leaders or ()] or [[[-1, -1]]]):
+            assert not (left < x < left + wide and top < y < top + high)
+
+
+@pytest.mark.parametrize("joints", [None, []])
+def test_legend_has_the_lines_of_the_arms_and_names_the_faint_curves(page, tmp_path, joints):
+    """Where dashes stand for joints, only its width tells which arm a line belongs to."""
+    faint = "faint: the opening motion"
+    shown(page, race(joints), tmp_path, 900, "min", "share", LINES, RECORD)
+    for end, moved in (("min", False), ("max", True)):
+        page.evaluate(TO_END, [end, "share"])
+        page.evaluate(NEXT)
+        [lines, words] = page.evaluate(
+            "[document.querySelectorAll('canvas')[1].lines, canvasWords()[1].words]"
+        )
+        assert (faint in [word["text"] for word in words]) == moved
+        ink = PAGE["ink"][0].lower()
+        for width in (2.6, 1.4):
+            arm = [line for line in lines if line["color"] == ink and line["width"] == width]
+            sample, *curves = [
+                line["dash"] for line in arm if len(line["points"]) > 2 or length(line) == 24
+            ]
+            assert curves and all(curve == sample for curve in curves)
+            assert bool(sample) == (width == 1.4 and joints == [])
+
+
+@pytest.mark.parametrize("end", ["min", "max"])
+@pytest.mark.parametrize("width", [*PHONE, 1366])
+def test_text_of_a_limit_touches_no_band_of_another_limit(page, tmp_path, width, end):
+    """Six limits of a PUMA 560 are in one panel, those of joint 6 (at -266 and 266 degrees) on both
+    sides of zero. A band begins at its limit and leads away from zero.
+    """
+    level = Quaternion.from_angle_axis(90 * deg, [0, 1, 0])
+    t = np.linspace(0, 1, 101)
+    start, goal = Transform(level, [(0.55, 0.6, 0.8), (0.55, -0.2, 1.1)])
+    rows = PUMA560.ik(lin(start, goal, t))
+    motions = np.stack([follow(PUMA560, rows, k) for k in range(8)])
+    view = animate(PUMA560, t, motions, slider=("row", np.arange(8)))
+    shown(page, view, tmp_path, width, end, "row", LINES, RECORD)
+    [lines, words] = page.evaluate(
+        "[document.querySelectorAll('canvas')[1].lines, canvasWords()[1].words]"
+    )
+    joints = [PAGE[f"joint{k}"][0].lower() for k in range(1, 7)]
+    limits = [
+        (joints.index(line["color"]) + 1, line["points"][0][1])
+        for line in lines
+        if line["width"] == 1 and line["color"] in joints
+    ]
+    zero = np.mean([y for joint, y in limits if joint == 6])
+    texts = [word for word in words if "limit" in word["text"]]
+    assert len(limits) == 7 and len(texts) >= 3
+    for word in texts:
+        own = int(word["text"][1])
+        _, top, _, high = word["box"]
+        for joint, y in limits:
+            band = sorted([y, y + np.sign(y - zero) * 8])
+            assert joint == own or band[0] > top + high or band[1] < top, (word["text"], joint)
+        assert min(abs(y - top - high / 2) for joint, y in limits if joint == own) < 12
+
+
+@pytest.mark.parametrize("width", [*PHONE, 1366])
+def test_ends_of_the_range_of_alpha_are_named_where_the_curve_ends(page, tmp_path, width):
+    view = movement_explorer(LEVERS, np.array([90, 90, 90]) * deg, (1.8, 0.6))
+    shown(page, view, tmp_path, width, "none", "none", LINES, RECORD)
+    [lines, words] = page.evaluate(
+        "[document.querySelectorAll('canvas')[1].lines, canvasWords()[1].words]"
+    )
+    [curve] = [line["points"] for line in lines if line["width"] == 2.2]
+    for text, (x, _) in (("69.5°", curve[0]), ("180.0°", curve[-1])):
+        [[left, _, wide, _]] = [word["box"] for word in words if word["text"] == text]
+        assert abs(left + wide / 2 - x) < 1, text
+
+
+def length(line):
+    """The length of a line with two points in px."""
+    points = np.reshape(line["points"], (-1, 2))
+    return round(float(np.linalg.norm(np.diff(points, axis=0))))
