@@ -420,7 +420,7 @@ def shows_every_branch(shown, exact=True):
         among = usable if usable.any() else exists
         assert among[chosen] and travel[chosen] == min(np.array(travel)[among])
     drawn = seen.words[0].split("|")
-    assert ("no solution here" in drawn) == (chosen < 0)
+    assert ("no solution" in drawn) == (chosen < 0)
     row = max(chosen, 0) if wanted < 0 else wanted
     count, why = int(usable.sum()), explain(arm, target, row)
     are = "is" if count == 1 else "are"
@@ -506,7 +506,7 @@ def test_chosen_branch_is_kept_out_of_reach_and_the_reason_is_given(opened):
     assert shows_every_branch(shown).seen.chosen == 6
     shown.type("z", 1250)
     seen = shows_every_branch(shown).seen
-    assert "beyond the reach of the arm" in seen.says and "no solution here" in seen.words[0]
+    assert "beyond the reach of the arm" in seen.says and "no solution" in seen.words[0]
     shown.type("z", 950)
     assert shows_every_branch(shown).seen.chosen == 6
 
@@ -762,10 +762,10 @@ def test_motion_explorer_uses_the_via_point_in_the_number_boxes(opened, arm):
 def test_unreachable_via_point_leaves_a_gap_with_a_message(opened):
     shown = opened(motion_explorer(IRB140, START, VIA, GOAL), IRB140)
     shown.slide("time", 200)  # of 400 steps
-    assert "no solution here" not in shown.look().words[0]
+    assert "no solution" not in shown.look().words[0]
     shown.type("via x", 1250)
     there = shows_the_motion(shown)
-    assert there.missing and "no solution here" in there.seen.words[0]
+    assert there.missing and "no solution" in there.seen.words[0]
     shown.type("via x", 650)
     assert shows_the_motion(shown).missing == 0
     for name in ("start", "via", "goal"):  # everything is out of reach, so there is nothing to draw

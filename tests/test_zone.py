@@ -161,7 +161,7 @@ def test_dragging_the_target_finds_the_hole_and_the_joint_stops(opened):
     hole = shown.drag("free", into)
     assert told(SCARA, hole) is None and "q2 past its limit" in hole.words[0]
     assert hole.rows[0][1] == hole.rows[1][1] == "past limit: q2"
-    for place, word in ((("x", -430), "q1 past its limit"), (("x", 470), "no solution here")):
+    for place, word in ((("x", -430), "q1 past its limit"), (("x", 470), "no solution")):
         shown.type(*place)
         assert word in shown.look().words[0]
     shown.type("x", 250)

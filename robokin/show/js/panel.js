@@ -3,6 +3,7 @@
 import {
   clear,
   colors,
+  font,
   jointColor,
   level,
   number,
@@ -163,7 +164,7 @@ function drawGrid({g, x, sides: [left, right, top, bottom]}, [low, step, count],
  * @param {Panel} panel
  * @param {Place[]} scales
  */
-function drawScales({g, sides: [left, right, top, bottom]}, {axes, lines}, scales) {
+function drawScales({g, sides: [left, right, top, bottom]}, {label, axes, lines}, scales) {
   axes.forEach(({scale: [low, step, count, decimals], unit}, k) => {
     const joints = [...new Set(lines.filter(line => line.axis === k).map(({joint}) => joint))];
     const color = k && joints.length === 1 ? shade(jointColor(joints[0])) : colors.soft,
@@ -175,8 +176,19 @@ function drawScales({g, sides: [left, right, top, bottom]}, {axes, lines}, scale
       write(g, number(value, decimals), px, scales[k](value) + 4, color, 11, k ? "left" : "right");
     }
     if (!k) return;
-    const text = `${joints.map(j => `q${j + 1}`).join(" and ")}, ${unit}`;
-    write(g, text, right - 1, top - 6, color, 12, "right", "600");
+    g.font = font(12, "600");
+    const text = `${joints.map(j => `q${j + 1}`).join(" and ")}, ${unit}`,
+      room = right - left - 12 - g.measureText(label).width; // beside the name of the panel
+    write(
+      g,
+      g.measureText(text).width > room ? unit : text,
+      right - 1,
+      top - 6,
+      color,
+      12,
+      "right",
+      "600",
+    );
   });
 }
 

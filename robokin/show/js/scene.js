@@ -37,8 +37,8 @@ import {compass} from "./triad.js";
  * @property {number[]} q  radians and metres
  * @property {(?Point)[]} [trace]  the tool's places, null at breaks; `tail`: those passed so far
  * @property {(?Point)[]} [tail]
- * @property {boolean} [faded]  whether there is no solution here
- * @property {string} [nowhere]  the words for this, if not "no solution here"
+ * @property {boolean} [faded]  whether there is no solution
+ * @property {string} [nowhere]  the words for this, if not "no solution"
  * @property {?{place: Point, text: string}} [near]  where the path is nearest to "via"
  * @property {{q: number[], past: boolean}[]} [ghosts]  other postures, faint; dashed if they
  *   exceed a limit (`past`)
@@ -292,7 +292,7 @@ function drawSpace(pen, arms, [x, y, w, h], named) {
   if (named) write(g, first.name, x + 10, y + 18, colors.ink, 13, "left", "600");
   if (arms.some(arm => arm.faded)) {
     const at = /** @type {Pixel} */ ([x + w / 2, y]),
-      {nowhere: text = "no solution here"} = first;
+      {nowhere: text = "no solution"} = first;
     labels.push({text, at, color: colors.alarm, weight: "600", away: [0, 1]});
   }
   if (first.row && arms.length === 1) {
