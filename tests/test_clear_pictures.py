@@ -12,6 +12,7 @@ from robokin import (
     IRB140,
     ITMO6R,
     PUMA560,
+    SCARA,
     Quaternion,
     Transform,
     deg,
@@ -328,3 +329,16 @@ def test_letter_of_an_axis_is_beyond_its_end(page, tmp_path, width):
                 for name, begin, end in ends
             ), (place, word)
     assert letters > 12
+
+
+def test_unit_on_the_right_is_beside_the_name_of_the_panel(page, tmp_path):
+    t = np.linspace(0, 2, 41)
+    goal = np.array([60 * deg, 90 * deg, 0, 0.1])
+    view = animate(SCARA, t, ptp(np.array([0, 30 * deg, 0, 0.0]), goal, t / 2))
+    shown(page, view, tmp_path, PHONE[1], "min", "none", RECORD)
+    words = [word for canvas in page.evaluate("canvasWords()") for word in canvas["words"]]
+    names = [word for word in words if word["text"].startswith("acceleration,")]
+    units = [word for word in words if word["text"].endswith("mm/s²")]
+    assert len(names) == 1 and len(units) == 1, str([w["text"] for w in words])
+    (left, _, wide, _), (begin, *_) = names[0]["box"], units[0]["box"]
+    assert left + wide < begin
