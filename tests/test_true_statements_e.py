@@ -246,7 +246,7 @@ def test_shorter_intervals_do_not_show_smaller_changes():
 
 
 def test_only_the_arms_length_limits_the_reach_in_front():
-    words = "In front, only the length of the arm limits the tool's reach."
+    words = "In front, only the length of the arm limits the outer edge."
     assert words in flat("04", "zone-how")
     low, high = SCARA.limits[:2].T
     l1, l2 = 0.2, 0.25

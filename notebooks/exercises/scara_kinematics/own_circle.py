@@ -129,7 +129,7 @@ def about_hole(hole: float, given: Given) -> Fault | None:
     )
     for value, name, says in named:
         if abs(hole - value) <= CLOSE * value / right:
-            return name, f"{says} Your hole has another radius."
+            return name, says if name == "mm for m" else f"{says} Your hole has another radius."
     says = f"At your stop of ±{stop / deg:.0f}°, the tool is not {hole / mm:.1f} mm from joint 1."
     return "another radius of the hole", says
 
