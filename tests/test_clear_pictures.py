@@ -24,7 +24,13 @@ from robokin import (
     three_lever,
     turning_base,
 )
-from robokin.show import animate, joint_explorer, movement_explorer, paths_explorer
+from robokin.show import (
+    animate,
+    elbow_explorer,
+    joint_explorer,
+    movement_explorer,
+    paths_explorer,
+)
 from robokin.show.palette import PAGE
 
 page = test_player.page
@@ -292,6 +298,23 @@ def test_ends_of_the_range_of_alpha_are_named_where_the_curve_ends(page, tmp_pat
     for text, (x, _) in (("69.5°", curve[0]), ("180.0°", curve[-1])):
         [[left, _, wide, _]] = [word["box"] for word in words if word["text"] == text]
         assert abs(left + wide / 2 - x) < 1, text
+
+
+@pytest.mark.parametrize("width", PHONE)
+def test_letters_of_the_links_are_next_to_their_links(page, tmp_path, width):
+    """From the side, the links are the column, the upper arm l2 and the forearm l3."""
+    shown(page, elbow_explorer(ITMO6R), tmp_path, width, "none", "none", RECORD)
+    [links, words] = page.evaluate("[canvasWords()[0].links, canvasWords()[0].words]")
+    links.sort(key=lambda line: line[0] + line[2])
+    assert len(links) == 3
+    for k, text in ((1, "l2"), (2, "l3")):
+        [[left, top, wide, high]] = [word["box"] for word in words if word["text"] == text]
+        middle = [left + wide / 2, top + high / 2]
+        far = [
+            np.linalg.norm(along({"points": np.reshape(link, (2, 2))}) - middle, axis=-1).min()
+            for link in links
+        ]
+        assert np.argmin(far) == k and far[k] < 36, (text, far)
 
 
 def length(line):

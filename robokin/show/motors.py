@@ -58,7 +58,7 @@ WORDS = {
     "plain": "{end} per second from the first to the last",
     "ramped": "from {start} up to {top} per second and down again",
     "slow": "The run is shown {slow} times slower than real time.",
-    "inStep": "Pulses sent: {sent}. The rotor is where it should be.",
+    "inStep": "Pulses sent: {sent}. The rotor has lost no steps.",
     "behind": "Pulses sent: {sent}. The rotor is {lost} steps behind.",
     "ahead": "Pulses sent: {sent}. The rotor is {lost} steps ahead.",
     "held": "You are holding the rotor. Let it go.",

@@ -105,6 +105,19 @@ const horizon = ({arm}, {scale}) => Math.min(HORIZON, 0.6 * arm.geometry.elbow.u
 const along = (a, b, share = 0.5) => [a[0] + share * (b[0] - a[0]), a[1] + share * (b[1] - a[1])];
 
 /**
+ * The direction from a line that leads away from a place beside it.
+ * @param {Pixel} a  one end of the line
+ * @param {Pixel} b
+ * @param {Pixel} place
+ * @returns {Pixel}
+ */
+function awayFrom(a, b, place) {
+  const [[dx, dy], [px, py]] = [b, place].map(([x, y]) => [x - a[0], y - a[1]]),
+    size = (dx * py > dy * px ? 1 : -1) / (Math.hypot(dx, dy) || 1);
+  return [size * dy, -size * dx];
+}
+
+/**
  * Draws the column, the circles on which an elbow lies, u and w, and the other elbow.
  * @param {Pen} pen
  * @param {ElbowExplorer} data
@@ -202,25 +215,36 @@ function labelsOf(data, now, places, wide) {
     wide ? `${name} ${number(x / unit.size, controls[0].decimals)}` : name;
   /** @type {(name: string, x: number) => string} */
   const angle = (name, x) => (wide ? `${name} ${number(degrees(x), 1)}\u00B0` : name);
+  /**
+   * The name of a line, on the side away from `place`.
+   * @type {(text: string, a: Pixel, b: Pixel, share: number, place: Pixel) => Label}
+   */
+  const beside = (text, a, b, share, place) => ({
+    ...label(text, along(a, b, share)),
+    away: awayFrom(a, b, place),
+  });
   const lines = [
-    label(length("d", now.d), along(joint2, point), colors.ink),
-    label(length("u", now.u), along(joint2, corner, 0.7)), // clear of "joint 2"
-    label(length("w", now.w), along(corner, point)),
+    {...beside(length("d", now.d), joint2, point, 0.5, elbow ?? corner), color: colors.ink},
+    beside(length("u", now.u), joint2, corner, 0.7, point), // clear of "joint 2"
+    beside(length("w", now.w), corner, point, 0.75, joint2),
     label(words.take, point, colors.ink, "600"),
     ...(wide ? [label("joint 2", joint2)] : []),
   ];
   if (!bent) {
-    const [a, b] = missing(data, now, places);
-    return [label(inWords(now.gap?.metres ?? 0), along(a, b), colors.alarm, "600"), ...lines];
+    const far = inWords(now.gap?.metres ?? 0),
+      [a, b] = missing(data, now, places);
+    const gap = {...beside(far, a, b, 0.5, corner), color: colors.alarm, weight: "600"};
+    return [gap, ...lines];
   }
   const {alpha, gamma} = bent,
     {upper, fore} = arm.geometry.elbow;
   return [
+    // bold, as the links are
+    {...beside(length("l2", upper), joint2, elbow, 0.4, point), weight: "600"},
+    {...beside(length("l3", fore), elbow, point, 0.5, joint2), weight: "600"},
     label(angle("\u03B1", alpha), on(joint2, 0.3 * alpha, horizon(data, places)), colors.ink),
     label(angle("\u03B3", gamma), on(elbow, alpha + 0.4 * gamma, BEND), colors.ink),
     ...lines,
-    label(length("l2", upper), along(joint2, elbow)),
-    label(length("l3", fore), along(elbow, point)),
     ...names.map((text, k) =>
       k === now.elbow ? label(text, elbows[k], colors.ink, "600") : label(text, elbows[k]),
     ),

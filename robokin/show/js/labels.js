@@ -119,8 +119,9 @@ const line = (px, py, u, v, wide) => [between(px, u, wide) - px, between(py, v, 
 const crossed = (dots, px, py, dx, dy) =>
   dots.some(({x, y, r, heavy}) => {
     const share = ((x - px) * dx + (y - py) * dy) / (dx * dx + dy * dy);
-    const aside = Math.hypot(x - px - share * dx, y - py - share * dy);
-    return heavy === WORD && share > 0.2 && share < 1 && aside < r;
+    const aside = Math.hypot(x - px - share * dx, y - py - share * dy),
+      beyond = share > 0 && share < 1 && Math.hypot(x - px, y - py) > r;
+    return heavy === WORD && beyond && aside < r;
   });
 
 /** @type {(x: number, low: number, size: number) => number} */
