@@ -141,7 +141,7 @@ export function drawShadow({g, cam: {to}, scene, trace, rods, thick}) {
   stroke(
     g,
     trace.map(p => p && sunk(p)),
-    clear(colors.soft, 0.16),
+    clear(colors.soft, 0.5),
     1.5,
   );
   for (const [p, q] of rods) stroke(g, [sunk(p), sunk(q)], clear(colors.soft, 0.13), thick);
