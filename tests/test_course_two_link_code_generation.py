@@ -169,7 +169,10 @@ def test_a_root_that_is_nan_for_side_0_is_distinguished_from_rounding_on_the_rim
     both = answer(lambda side, h2: side * np.sqrt(h2))
     assert both.mistake == "0 times NaN for side 0, and no answer for the stretched arm"
     assert "side = 0" in both.case and "0 times NaN is NaN" in both.says[0]
-    assert answer(lambda side, h2: side and side * np.sqrt(h2)).mistake == "no answer for the stretched arm"
+    assert (
+        answer(lambda side, h2: side and side * np.sqrt(h2)).mistake
+        == "no answer for the stretched arm"
+    )
 
 
 def test_a_program_is_shown_by_its_length_and_one_line_as_it_is():

@@ -10,7 +10,14 @@ import pytest
 
 from robokin import spbu_arm, within
 from robokin.course import book, check, variant
-from robokin.jobs.visit_collect import best_visit, misfit, travel_time, visit, workspace
+from robokin.jobs.visit_collect import (
+    best_visit,
+    misfit,
+    principal_postures,
+    travel_time,
+    visit,
+    workspace,
+)
 
 LAB = book.lab("visit_and_collect")
 TRAPS, FACTS, SHARED = (LAB.module(name) for name in ("greedy_traps", "predictions", "shared"))
@@ -309,6 +316,25 @@ def test_cheapest_first_collects_as_many_points_as_the_best_choice():
     for _ in range(100):
         greedy, best = TRAPS["both"]("collect", rng.permutation(POINTS)[:4], numbers)
         assert len(greedy) == len(best)
+
+
+def test_no_move_goes_under_the_floor_if_link_2_is_longer():
+    """Test the statement of prediction 8 on more than 20 000 random moves in row 0."""
+    rng, moves = np.random.default_rng(8), 0
+    while moves < 20_000:
+        l1 = rng.uniform(1, 6)
+        l2 = rng.uniform(l1, 9)
+        places = rng.uniform(-l1 - l2, l1 + l2, (800, 3))
+        places[:, 2] = abs(places[:, 2])
+        places = places[workspace(l1, l2, places).all(axis=-1)]
+        q = principal_postures(l1, l2, places)
+        begin, goal = q[: len(q) // 2], q[len(q) // 2 :][: len(q) // 2]
+        share = np.linspace(0, 1, 101)[:, None, None]
+        _, q2, q3 = np.moveaxis(begin + share * (goal - begin), -1, 0)
+        heights = l1 * np.cos(q2) - l2 * np.sin(q2 + q3)
+        assert np.allclose(heights[0], places[: len(begin), 2], rtol=0, atol=1e-9)
+        assert heights.min() > -1e-9
+        moves += len(begin)
 
 
 def test_numbers_used_in_the_predictions_are_correct():

@@ -88,8 +88,9 @@ def numbers(text):
     is least.
     """
     form = (
-        r"gamma (.*)°, beta (.*)°, alpha (.*)°: S = (.*)° \+ (.*)° \+ (.*)° ([=≈]) (.*)°; the longest "
-        r"turn is (.*)°\. The least S is (.*)°, at alpha = (.*)°: ([^.]*)\.(?: With the "
+        r"gamma (.*)°, beta (.*)°, alpha (.*)°: S = (.*)° \+ (.*)° \+ (.*)° ([=≈]) (.*)°; "
+        r"the longest turn is (.*)°\. The least S is (.*)°, at alpha = (.*)°: ([^.]*)\."
+        r"(?: With the "
         r"earlier (.*)°, the total is (.*)°\. The longest turns add up to (.*)°\.)?"
     )
     *values, where, before, total, longest = re.fullmatch(form, text).groups()

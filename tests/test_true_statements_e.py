@@ -543,7 +543,7 @@ def test_every_joint_has_its_full_speed_at_once():
 
 
 def test_joint_1_arrives_last_up_to_the_stated_speed():
-    (stated,) = numbers(r"Up to (\S+) rad/s on this slider", flat("08", "time-look"))
+    (stated,) = numbers(r"Up to (\S+) rad/s \(the limit", flat("08", "time-look"))
     starts, ends = principal_postures(5, 4, [[1, 1, 1], [1, 3, 3]])
     turns = abs(ends - starts)
     speeds = np.array([0.075, 0.1, 0.125, 0.15, 0.2])

@@ -171,7 +171,7 @@ def test_greed_loses_two_points_and_none_at_the_stated_times():
 
 
 def test_point_3_comes_first_once_it_is_nearer_than_point_0():
-    assert "Once point 3 is nearer to p0 than point 0 is, the rule goes there before" in flat(
+    assert "Once point 3 is nearer to p0 than point 0, the rule goes there before" in flat(
         "08", "visit-look"
     )
     for azimuth in (-0.99, -0.9, -0.7, -0.5):

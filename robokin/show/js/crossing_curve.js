@@ -8,6 +8,7 @@ import {placeLabels} from "./labels.js";
 /** @import {Tracks} from "./crossing.js" */
 /** @import {CrossingExplorer, Found, State} from "./crossing_explorer.js" */
 /** @import {Label} from "./labels.js" */
+/** @import {Unit} from "./page.js" */
 
 const MARGIN = {left: 34, right: 12, top: 26, bottom: 20}; // px
 
@@ -36,11 +37,7 @@ export function drawCurves(canvas, data, {tip}, {tracks, meets, elbows, formula,
   const y = at => centre - ((bottom - top) / 2.2) * ((at[k] - base[k]) / l1);
   /** @type {(at: Point) => number} */
   const u = at => at[k] - base[k];
-  /** The coordinate at a distance from the base, as text. @type {(value: number) => string} */
-  const tick = value => {
-    const shown = (value + base[k]) / unit.size;
-    return number(shown, unit.size < 1 ? 0 : isTenth(shown) ? 1 : 2);
-  };
+  const tick = tickOf(unit, base[k]);
   const name = `${eliminated} of both elbows over ${along}, both in ${unit.name}`;
   write(g, name, 4, 14, colors.ink, 12, "left", "600");
   for (const value of [-l1, 0, l1]) {
@@ -84,8 +81,17 @@ export function drawCurves(canvas, data, {tip}, {tracks, meets, elbows, formula,
   return {at: px => base[k] + ((px - middle) / ((right - left) / 2)) * far};
 }
 
-/** @type {(x: number) => boolean} */
-const isTenth = x => Math.abs(10 * x - Math.round(10 * x)) < 1e-6;
+/**
+ * The coordinate at a distance from the base, as text.
+ * @param {Unit} unit
+ * @param {number} base
+ * @returns {(value: number) => string}
+ */
+const tickOf = (unit, base) => value => {
+  const shown = (value + base) / unit.size,
+    isTenth = Math.abs(10 * shown - Math.round(10 * shown)) < 1e-6;
+  return number(shown, unit.size < 1 ? 0 : isTenth ? 1 : 2);
+};
 
 /**
  * Writes the names of both elbows beside the middle of their curves, where they cover nothing.
