@@ -22,7 +22,7 @@ const GAPS = [5, 14, 26, 40, 58, 84], // px between a point and its label
   TURNS = 12, // the number of directions
   NEAR = 3 * TURNS, // the number of places without a line
   HIGH = 16, // px: the height of a label
-  REACH = 40, // px: the directions of the base and a letter beside them are this near to their centre
+  REACH = 40, // px: the directions of the base, and letters beside them, are this near their centre
   MOST = 40; // the cost above which a label with `near` is left out
 
 /**
