@@ -23,7 +23,8 @@ const GAPS = [5, 14, 26, 40, 58, 84], // px between a point and its label
   TURNS = 12, // the number of directions
   NEAR = 3 * TURNS, // the number of places without a line
   HIGH = 16, // px: the height of a label
-  REACH = 40, // px: the base's directions and a letter beside them are this near to their centre
+  REACH = 40, // px: the directions of the base, and letters beside them, are this near their centre
+  CROSSED = 30, // the cost of a line that goes through words: less than to hide one
   TIP = 2 * TURNS, // the number of places close enough to the end of a line
   MOST = 40, // the cost above which a label with `near` is left out
   TIPS = 12; // the same for a label with `tip`
@@ -67,7 +68,8 @@ export function placeLabels(g, labels, [left, top, width, height], handles = [])
         if (x > u - r && x < u + wide + r && y > v - r && y < v + HIGH + r) cost += heavy;
         if (cost >= least) break;
       }
-      if (k >= NEAR && !away && crossed(close, px, py, ...line(px, py, u, v, wide))) cost += WORD;
+      if (k >= NEAR && !away && crossed(close, px, py, ...line(px, py, u, v, wide)))
+        cost += CROSSED;
       if (cost < least) [least, bestX, bestY, place] = [cost, u, v, k];
     }
     if (least > (tip ? TIPS : near ? MOST : Infinity)) continue;

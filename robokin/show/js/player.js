@@ -149,7 +149,7 @@ const labelsOf = data =>
 function folding(name, part) {
   const button = control(
     "button",
-    {type: "button", class: "rk-word", "aria-expanded": "false"},
+    {type: "button", class: "rk-word", "aria-label": name, "aria-expanded": "false"},
     name,
   );
   part.hidden = true;
