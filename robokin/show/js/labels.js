@@ -24,7 +24,7 @@ const GAPS = [5, 14, 26, 40, 58, 84], // px between a point and its label
   NEAR = 3 * TURNS, // the number of places without a line
   HIGH = 16, // px: the height of a label
   REACH = 40, // px: the directions of the base, and letters beside them, are this near their centre
-  CROSSED = 30, // the cost of a line that goes through words: less than to hide one
+  CROSSED = 8, // the cost of a line that goes through words: less than to cover a link
   TIP = 2 * TURNS, // the number of places close enough to the end of a line
   MOST = 40, // the cost above which a label with `near` is left out
   TIPS = 12; // the same for a label with `tip`
@@ -93,12 +93,11 @@ export function placeLabels(g, labels, [left, top, width, height], handles = [])
 /**
  * The place with the least ink within REACH; of several such places, the first.
  * @param {Pixel[]} places
- * @param {Box[]} handles
  */
-export function freest(places, handles) {
+export function freest(places) {
   /** @type {Dot[]} */
   const dots = [];
-  for (const each of [...ink, ...handles.map(wordInk)]) mark(dots, each);
+  for (const each of ink) mark(dots, each);
   const costs = places.map(([px, py]) =>
     dots.reduce(
       (sum, {x, y, r, heavy}) => (Math.hypot(x - px, y - py) < r + REACH ? sum + heavy : sum),

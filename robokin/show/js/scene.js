@@ -281,14 +281,6 @@ function drawSpace(pen, arms, [x, y, w, h], named) {
   for (const kind in KINDS) KINDS[kind].above({...pen, near: first.near}, only(kind), ofThings);
   labels.push(...all.flatMap(drawFlange), ...ofThings); // a flange is drawn over its target
   const handles = first.handles?.(all[0].cam) ?? [];
-  const [right, high] = [x + w - 34, y + 60];
-  /** @type {Pixel[]} */
-  const corners = [
-    [right, y + h - 34],
-    [right, high],
-    [x + 34, high],
-  ];
-  compass(g, cam, freest(corners, handles));
   if (named) write(g, first.name, x + 10, y + 18, colors.ink, 13, "left", "600");
   if (arms.some(arm => arm.faded)) {
     const at = /** @type {Pixel} */ ([x + w / 2, y]),
@@ -302,6 +294,14 @@ function drawSpace(pen, arms, [x, y, w, h], named) {
   for (const {cam, labels: own = []} of all)
     for (const label of own) labels.push({weight: "600", ...label, at: cam.to(label.at)});
   placeLabels(g, labels, [x + 4, y + 24, w - 8, h - 46], handles);
+  const [right, high] = [x + w - 34, y + 60];
+  /** @type {Pixel[]} */
+  const corners = [
+    [right, y + h - 34],
+    [right, high],
+    [x + 34, high],
+  ];
+  compass(g, cam, freest(corners)); // last: labels need the room more
 }
 
 /**
