@@ -285,10 +285,19 @@ def _by_assertion(make):
             for phi, psi in [(np.pi / 4, 0.3), (2, -0.5), (-2, 3), (1, 1)]:
                 for h, wrist in itertools.product(make(zyz(phi, theta, psi)), (1, -1)):
                     found = program(h, wrist)
-                    assert abs(rebuilt(*found) - h).max() < 1e-11
-                    assert -1e-11 < wrist * found[1] < np.pi + 1e-11
+                    assert abs(rebuilt(*found) - h).max() < 1e-10
+                    assert -1e-10 < wrist * found[1] < np.pi + 1e-10
 
     return test
+
+
+def test_stricter_test_than_the_task_allows_rejects_a_correct_program():
+    def test(program):
+        h = zyz(2, 1, -0.5)
+        return bool(abs(rebuilt(*program(h, 1)) - h).max() < 1e-12)
+
+    verdict = check("spherical_wrist.2", test)
+    assert verdict.mistake == "rejects a correct program" and "half of what" in verdict.case
 
 
 def test_test_may_refuse_a_program_with_an_assertion():

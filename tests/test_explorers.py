@@ -631,7 +631,7 @@ def test_axis_of_the_free_angle_is_the_same_for_every_target(context, opened):
         low, high = np.array(LEVERS.alpha_range((x, 0.5))) / deg
         assert [float(end["text"][:-1]) for end in ends] == pytest.approx([low, high], abs=0.06)
         (left, _, width, _), (right, _, wide, _) = (end["box"] for end in ends)
-        if right - left - width < 7:  # side by side, because the range is narrow
+        if high - low < 30:  # about 60 px: the texts are beside the ends, not below them
             places += [(low, left + width + 3), (high, right - 3)]
         else:
             places += [(low, left + width / 2), (high, right + wide / 2)]

@@ -754,9 +754,7 @@ def test_stated_minimum_ratio_of_tool_speed_to_joint_speed_holds():
     the cell.
     """
     g, said = run("06", "near-code")
-    moves = (
-        r"if a joint moves at 1°/s, the tool moves at $\sigma L \cdot 1°/\mathrm{s}$ (in mm/s) or"
-    )
+    moves = r"if a joint moves at 1°/s, the tool moves at $\sigma L\,\pi/180$ mm/s ($L$ in mm) or"
     assert f"{moves} faster" in sources("06")["near"]
     told = {int(m): float(x) for m, x in re.findall(r"(\d+) mm: .* (\S+) mm/s per °/s", said)}
     assert set(told) == {1, 2, 5, 10, 20, 50}
