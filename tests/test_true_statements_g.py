@@ -796,3 +796,18 @@ def test_plans_for_80_mm_wide_levers_exist_but_one_needs_a_larger_circle():
     assert f"({2.0 - 0.4 * changed:.1f}, 1.3)" == "(1.6, 1.3)"
     circles = [int(re.search(r"r = (\d+) mm", each[changed])[1]) for each in answers]
     assert circles[0] < circles[1]
+
+
+def test_controller_refuses_every_task_at_the_largest_distance():
+    (at,) = numbers(r"Which lines does (\S+) m change", flat("10", "control-look"))
+    told = {int(k) for k in re.findall(r"\d", flat("10", "control-look").split("Lines ")[1][:12])}
+    lines = []
+    for distance in ("WANTED", str(at)):
+        with contextlib.redirect_stdout(io.StringIO()) as said:
+            changed = [("asked_now = WANTED", f"asked_now = {distance}")]
+            run_cells("10", "setup", "control-code", "control-run", changed=changed)
+        lines.append([re.sub(r"\s+", " ", line) for line in said.getvalue().splitlines()])
+    usual, wide = lines
+    assert len(usual) == 5
+    assert {k for k in range(1, 6) if usual[k - 1] != wide[k - 1]} == told
+    assert all(" S = 0.0° " in line for line in wide)

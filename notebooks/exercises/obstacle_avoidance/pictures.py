@@ -42,6 +42,12 @@ def draw(ax: Any, q: Floats, label: str, **style: Any) -> None:
     ax.plot(*points.T, marker="o", mfc=PAPER, ms=5, lw=2, label=label, **style)
 
 
+def mark_H(ax: Any, place: Any) -> None:
+    """The cross of the obstacle, with its letter."""
+    ax.plot(*place, "X", color=INK, ms=9, zorder=6)
+    ax.annotate("H", place, (7, 4), textcoords="offset points", zorder=6)
+
+
 def plane(ax: Any, low: tuple[float, float], high: tuple[float, float], title: str) -> None:
     ax.set(aspect="equal", xlim=(low[0], high[0]), ylim=(low[1], high[1]), title=title)
     ax.set(xlabel="x, m", ylabel="y, m")
@@ -60,7 +66,7 @@ def p1_view() -> Any:
             side = corners[[0, 1]] if k == 0 else corners[[3, 2]]
             ax.plot(*side.T, color=color, ls=dash, lw=3, label=label)
         says = drawing(corners, np.zeros(2))
-        ax.plot(0, 0, "X", color=INK, ms=9)
+        mark_H(ax, (0, 0))
         ax.text(0, -0.3, "found" if says else "missed", ha="center")
         ax.set(aspect="equal", title=name, xticks=[], yticks=[], xlim=(-0.8, 0.8), ylim=(-0.8, 0.8))
         ax.set(xlabel="x", ylabel="y")
@@ -113,7 +119,7 @@ def p3_view() -> Any:
     P, Q, H = LEVER
     ax.plot(*np.array([P, Q]).T, color=INK, lw=6, solid_capstyle="round")
     ax.plot([1, 1.6], [0, 0], "--", color=SOFT)
-    ax.plot(*H, "X", color=INK, ms=10)
+    mark_H(ax, H)
     facts = p3()
     for foot, name, color in ((Q, "end", FIRST), ((H[0], 0), "line", REMARK)):
         ax.annotate(
@@ -169,7 +175,7 @@ def p5_view() -> Any:
     ax.plot(*ways.T, color=FIRST, lw=2, label="gripper")
     angle = np.linspace(0, 2 * np.pi, 100)
     ax.plot(PASSED[0] + WANTED * np.cos(angle), PASSED[1] + WANTED * np.sin(angle), color=REMARK)
-    ax.plot(*PASSED, "X", color=INK, ms=9, zorder=6)
+    mark_H(ax, PASSED)
     plane(ax, (-1.2, -0.1), (2.9, 2.2), "The gripper goes round H, but lever AK sweeps across it")
     ax.legend(loc="upper right", fontsize=8)
     fig.tight_layout()
