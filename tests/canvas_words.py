@@ -103,6 +103,23 @@ RECORD = """
     }));
 })();
 """
+# `canvas.lines`: the points (px), colour, width and dash of all lines in the last picture
+LINES = """{
+  const pen = CanvasRenderingContext2D.prototype;
+  const {clearRect, beginPath, moveTo, lineTo, stroke} = pen;
+  Object.assign(pen, {
+    clearRect(...all) { this.canvas.lines = []; return clearRect.apply(this, all); },
+    beginPath() { this.line = []; return beginPath.call(this); },
+    moveTo(x, y) { this.line.push([x, y]); return moveTo.call(this, x, y); },
+    lineTo(x, y) { this.line.push([x, y]); return lineTo.call(this, x, y); },
+    stroke() {
+      const width = +this.lineWidth.toFixed(2); // a canvas keeps 32 bits of it
+      const [points, color, dash] = [this.line, this.strokeStyle, this.getLineDash()];
+      this.canvas.lines?.push({points, color, width, dash});
+      return stroke.call(this);
+    },
+  });
+}"""
 # Moves the sliders of all visible views to place i of n. Each slider goes its own way, so that the
 # places are not all on one line.
 MOVE = """([i, n]) => {

@@ -5,7 +5,7 @@ all sliders at their ends. `test_fit.py` tests this for the words of whole labs.
 import numpy as np
 import pytest
 import test_player
-from canvas_words import COVERED, MOVE, NEXT, RECORD
+from canvas_words import COVERED, LINES, MOVE, NEXT, RECORD
 from conftest import awake
 
 from robokin import (
@@ -36,23 +36,6 @@ from robokin.show.palette import PAGE
 page = test_player.page
 PHONE = 390, 324  # px: the page of a view; one whose view is as narrow as that of a lab
 LEVERS = three_lever(1.0)
-# `canvas.lines`: the points (px), colour, width and dash of all lines in the last picture
-LINES = """{
-  const pen = CanvasRenderingContext2D.prototype;
-  const {clearRect, beginPath, moveTo, lineTo, stroke} = pen;
-  Object.assign(pen, {
-    clearRect(...all) { this.canvas.lines = []; return clearRect.apply(this, all); },
-    beginPath() { this.line = []; return beginPath.call(this); },
-    moveTo(x, y) { this.line.push([x, y]); return moveTo.call(this, x, y); },
-    lineTo(x, y) { this.line.push([x, y]); return lineTo.call(this, x, y); },
-    stroke() {
-      const width = +this.lineWidth.toFixed(2); // a canvas keeps 32 bits of it
-      const [points, color, dash] = [this.line, this.strokeStyle, this.getLineDash()];
-      this.canvas.lines?.push({points, color, width, dash});
-      return stroke.call(this);
-    },
-  });
-}"""
 # Moves sliders to values
 TO_VALUES = """values => {
   for (const slider of document.querySelectorAll("input[type=range]")) {

@@ -17,7 +17,7 @@ import numpy as np
 import pytest
 import test_browser
 from axe_playwright_python.sync_playwright import Axe
-from canvas_words import RECORD
+from canvas_words import LINES, RECORD
 from conftest import ROOT, awake, until
 from machines import UR5
 from scipy.optimize import brentq
@@ -99,22 +99,6 @@ Object.assign(pen, {
 const clipboard = {writeText: async text => { window.copied = text; }};
 Object.defineProperty(navigator, "clipboard", {value: clipboard});
 """
-# `canvas.lines`: the points, dashes and widths of all lines in the last picture
-LINES = """{
-  const pen = CanvasRenderingContext2D.prototype;
-  const {clearRect, beginPath, moveTo, lineTo, stroke} = pen;
-  Object.assign(pen, {
-    clearRect(...all) { this.canvas.lines = []; return clearRect.apply(this, all); },
-    beginPath() { this.line = []; return beginPath.call(this); },
-    moveTo(x, y) { this.line.push([x, y]); return moveTo.call(this, x, y); },
-    lineTo(x, y) { this.line.push([x, y]); return lineTo.call(this, x, y); },
-    stroke() {
-      const [points, dash, width] = [this.line, this.getLineDash(), this.lineWidth];
-      this.canvas.lines?.push({points, dash, width});
-      return stroke.call(this);
-    },
-  });
-}"""
 READ = """async rk => {
   const all = what => [...rk.querySelectorAll(what)];
   const frame = () => new Promise(requestAnimationFrame);
