@@ -104,6 +104,8 @@ READ = """async rk => {
   const frame = () => new Promise(requestAnimationFrame);
   while (!all("input[type=range]").every(e => e.hasAttribute("aria-valuetext"))) await frame();
   await frame(), await frame();  // until the first picture is drawn with its sliders
+  await new Promise(done => setTimeout(done));  // and the search between the samples has run,
+  await frame(), await frame();  // and its numbers are shown
   const plain = text => text.replaceAll("\\u2212", "-");
   const named = (what, value) =>
     Object.fromEntries(all(what).map(e => [e.ariaLabel.split(",")[0], value(e)]));

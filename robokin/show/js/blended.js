@@ -92,15 +92,18 @@ export const most = (rows, j) =>
 
 /**
  * `now()` returns the motion for the current settings, and computes it again if they have changed.
- * `searched(held)` returns what `search` finds in it. The search takes long, so it runs once for
- * each motion and not while a handle is held: until then the result is null.
+ * `searched(held)` returns what `search` finds in it, or null as long as that is not known. The
+ * search takes long, so it runs once for each motion, after its picture, and not while a handle is
+ * held; then it calls `changed`.
  * @template Found
  * @param {MotionPage} data
  * @param {State} state
  * @param {(motion: Motion) => ?Found} search
+ * @param {() => void} changed
  */
-export function motions(data, state, search) {
-  let known = "";
+export function motions(data, state, search, changed) {
+  let known = "",
+    waiting = false;
   /** @type {?Motion} */
   let found = null;
   /** @type {?Found | undefined} */
@@ -116,7 +119,14 @@ export function motions(data, state, search) {
     /** @param {boolean} held */
     searched(held) {
       const motion = now();
-      if (result === undefined && !held) result = search(motion);
+      if (result === undefined && !held && !waiting) {
+        waiting = true;
+        setTimeout(() => {
+          waiting = false;
+          if (motion === found) result = search(motion);
+          changed();
+        });
+      }
       return result ?? null;
     },
   };

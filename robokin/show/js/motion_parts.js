@@ -65,7 +65,7 @@ export function motionParts(stage, data, search, ...more) {
     inputs: inputsOf(stage, data, state),
     copy: copyButton(words, () => inCode(data, state)),
     held: holding(stage),
-    motion: motions(data, state, search),
+    motion: motions(data, state, search, stage.changed),
     /** The sample that the clock shows. */
     sample: () => Math.round((state.time / state.duration) * (data.samples - 1)),
   };
