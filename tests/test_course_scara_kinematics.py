@@ -59,6 +59,21 @@ def test_every_listed_mistake_is_named(number):
         assert not verdict.holds and verdict.mistake == mistake.name, verdict
 
 
+def _by_a_quotient(q1, q2, l1, along, side):
+    """Use arctan(side / along), which is half a turn off if the camera is behind joint 2."""
+    reach, bend = np.hypot(along, side), q2 + np.arctan(side / along)
+    inside = np.arctan2(reach * np.sin(bend), l1 + reach * np.cos(bend))
+    return [q1 + 2 * inside, -q2 - 2 * np.arctan(side / along)]
+
+
+def _without_brackets(q1, q2, l1, along, side):
+    """Divide only by the first term of the denominator."""
+    offset, reach = np.arctan2(side, along), np.hypot(along, side)
+    bend = q2 + offset
+    inside = np.arctan(reach * np.sin(bend) / l1 + reach * np.cos(bend))
+    return [q1 + 2 * inside, -bend - offset]
+
+
 def _by_ik_alone(q1, q2, l1, along, side):
     """Use the inverse of the lab's arm for the position of its tool, not of the camera."""
     rows = SCARA.ik(SCARA.fk([q1, q2, 0, 0]))
@@ -72,6 +87,8 @@ def _by_ik_alone(q1, q2, l1, along, side):
         (lambda *case: _by_direction(*case)[:1], "another kind or shape"),
         (lambda *case: SCARA.ik(SCARA.fk([case[0], case[1], 0, 0])), "another kind or shape"),
         (_by_ik_alone, None),
+        (_by_a_quotient, "arctan instead of arctan2 for the camera"),
+        (_without_brackets, "brackets left out"),
         (lambda *case: print(case), "prints instead of returning"),
         (lambda q1, q2, *lengths: (q1, q2), None),
         (lambda q1, q2, *lengths: (-q1, -q2), "every sign changed"),

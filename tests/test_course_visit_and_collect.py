@@ -300,6 +300,15 @@ def test_all_wrong_answers_are_named_at_once():
     assert tasks == ['"visit"', '"collect"', '"worth"'] and verdict.points == 0
 
 
+def test_all_malformed_answers_are_named_at_once():
+    answer = traps("your name", visit=[[1, 2, 3]], worth="perhaps")
+    verdict = check("visit_and_collect.3", answer, who="your name")
+    assert verdict.mistake == "another kind or shape"
+    said = " ".join(verdict.says)
+    assert '"visit": wanted four points' in said and '"worth": wanted four points' in said, verdict
+    assert '"collect"' not in said
+
+
 def test_loss_of_less_than_half_of_the_value_is_reported():
     numbers = variant("visit_and_collect", "your name") | {"worth": [3, 2, 3, 4]}
     points = np.array(turned(numbers, [0.5, -1.35, -1.5, -1.2]))

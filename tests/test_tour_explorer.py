@@ -139,6 +139,7 @@ def test_best_order_is_hidden_until_the_reader_has_an_order():
         "Nearest first visits 1 of 4. The best order appears when all points are in your order."
     )
     assert explorer.still.alt == explorer.data["alt"] == f"An arm and 4 points. {wanted}"
+    assert explorer.still.texts[0].get_text() == "Nearest first visits 1 of 4."
     for best in (1, "no", None, np.array([True])):
         with pytest.raises(ValueError, match="best: wanted True or False, got"):
             tour_explorer(CIRCLE, best=best)

@@ -27,6 +27,7 @@ from robokin import (
     SCARA,
     Arm,
     Quaternion,
+    ScaraPose,
     Transform,
     blend,
     deg,
@@ -35,6 +36,7 @@ from robokin import (
     mm,
     spbu_arm,
     three_lever,
+    within,
 )
 from robokin.course import book
 from robokin.jobs.obstacles import in_quadrilateral, plan, via_path
@@ -243,6 +245,19 @@ def test_shorter_intervals_do_not_show_smaller_changes():
 
 
 # --- Labs 04 to 06 --------------------------------------------------------------------------------
+
+
+def test_zone_of_row_0_goes_farther_back_at_positive_y():
+    assert (
+        "that of row 0 (+1) goes farther back at positive y." in flat("04", "able")
+        and SCARA.branch(+1) == 0
+    )
+    across = np.arange(-449, 450, 2.0) * mm
+    x, y = np.meshgrid(across, across[across > 0])
+    grid = ScaraPose(np.stack([x, y, 0.1 + 0 * x], axis=-1))
+    inside = within(SCARA, SCARA.ik(grid)).all(axis=-1)
+    back = np.where(inside, x[..., None], np.inf).min(axis=1)  # at each y, with each elbow
+    assert (back[:, 0] <= back[:, 1]).all() and back[:, 0].min() < back[:, 1].min() - 30 * mm
 
 
 def test_only_the_arms_length_limits_the_reach_in_front():
@@ -529,8 +544,9 @@ def test_most_short_lines_keep_their_row():
 
 
 def test_every_joint_has_its_full_speed_at_once():
-    assert "every joint reaches its full speed at once" in flat("08", "time-look")
+    assert "every joint reaches its full speed at once" in flat("08", "time-take")
     assert "Choose a speed of joint 1, press play" in flat("08", "time-take")
+    assert "Joints 2 and 3 turn at 11.5°/s (0.2 rad/s)" in flat("08", "time-take")
     (most,) = numbers(
         r"greatest speed of \d+ samples (\S+) °/s \(joint \d\)", shown("08", "time-player")
     )
@@ -543,7 +559,10 @@ def test_every_joint_has_its_full_speed_at_once():
 
 
 def test_joint_1_arrives_last_up_to_the_stated_speed():
-    (stated,) = numbers(r"Up to (\S+) rad/s \(the limit", flat("08", "time-look"))
+    degrees, stated = numbers(
+        r"Up to (\S+)°/s, which is (\S+) rad/s \(the limit", flat("08", "time-look")
+    )
+    assert round(stated / deg, 1) == degrees
     starts, ends = principal_postures(5, 4, [[1, 1, 1], [1, 3, 3]])
     turns = abs(ends - starts)
     speeds = np.array([0.075, 0.1, 0.125, 0.15, 0.2])

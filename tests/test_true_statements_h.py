@@ -6,6 +6,7 @@ import re
 import numpy as np
 import pytest
 from scipy.spatial.transform import Rotation
+from test_true_statements_b import cells
 from test_true_statements_b import run as run_cells
 from test_true_statements_c import flat, numbers, shown
 from test_true_statements_g import joints_of, place_of
@@ -45,6 +46,18 @@ def test_two_pairs_of_rows_coincide_at_the_suggested_pose():
 
 
 # --- Lab 08 ---------------------------------------------------------------------------------------
+
+
+def test_elbow_of_the_sinking_arm_stays_above_the_floor_only_at_1_m():
+    """The elbow is at the upper intersection of circles about the origin and the tool."""
+    assert "Only at 1 m." in flat("08", "zone-take")
+    (away,) = re.findall(r"away = np.array\(\[(.*?)\]\)", cells("08")["zone-player"])
+    kept = []
+    for rho in map(float, away.split(", ")):
+        q = [joints_of((rho, 0, h), 4.0, 5.0) for h in np.linspace(4, 1.2, 421)]
+        if min(math.cos(lean) for _, lean, _ in q) >= -1e-9:
+            kept.append(rho)
+    assert kept == [1]
 
 
 def test_greatest_speed_of_joint_2_of_the_sinking_arm_is_as_shown():

@@ -115,6 +115,7 @@ def tour_explorer(task: Task, *, best: bool = True) -> Live:
     reach = extent(arm) / size
     least = min(0.1 * reach, task.l1 / size, task.l2 / size)
     alt = " ".join([WORDS["scene"].format(n=count), told["says"], *told["notes"]])
+    still = _picture(alt, arm, task, told, told["says"] if best else told["alone"])
     data: TourPage = {
         "kind": "tour",
         "title": "Which order is best? Tap the points",
@@ -140,7 +141,7 @@ def tour_explorer(task: Task, *, best: bool = True) -> Live:
         f"task = Task({{l1}}, {{l2}}, T={{T}}, speeds={task.speeds.tolist()},\n"
         '            p0={p0},\n            points={points},\n            kind="{kind}")',
     }
-    return Live(dict(data), _picture(alt, arm, task, told), first, answer)
+    return Live(dict(data), still, first, answer)
 
 
 def answered(question: Question, speeds: Floats) -> Answer:
@@ -306,10 +307,10 @@ def _spare(task: Task) -> Floats:
     return places
 
 
-def _picture(alt: str, arm: Arm, task: Task, told: Answer) -> plots.Figure:
-    """Draw the arm at the start, and the tours in `told`."""
+def _picture(alt: str, arm: Arm, task: Task, told: Answer, title: str) -> plots.Figure:
+    """Draw the arm at the start, and the tours in `told`, under a title of one line."""
     fig = plots.figure(alt, width=6.4, height=4.5)
-    fig.text(0.016, 0.985, told["says"], fontsize=10, fontweight="bold", va="top")
+    fig.text(0.016, 0.985, title, fontsize=10, fontweight="bold", va="top")
     scene = Scene(fig.add_axes((0, 0, 1, 0.93)), size=extent(arm), like=_scene(arm, task))
     scene.base()
     scene.arm(arm, told["greedy"]["q"][0].astype(float), "first")

@@ -72,7 +72,16 @@ def form(answer: Any, given: Any) -> Traps:
     if not isinstance(answer, Mapping) or set(answer) != set(TASKS):
         wanted = 'Wanted {"visit": ..., "collect": ..., "worth": ...}'
         raise ValueError(f"{wanted}, got {in_words(answer)}.")
-    return {task: points_form(task, answer[task]) for task in TASKS}
+    traps: Traps = {}
+    wrong = []
+    for task in TASKS:
+        try:
+            traps[task] = points_form(task, answer[task])
+        except ValueError as error:
+            wrong.append(str(error))
+    if wrong:
+        raise ValueError(" ".join(wrong))
+    return traps
 
 
 def points_form(task: str, answer: Any) -> Floats | None:
@@ -88,7 +97,7 @@ def points_form(task: str, answer: Any) -> Floats | None:
     if points.shape != (4, 3) or not np.isfinite(points).all():
         raise ValueError(f"{wanted}, got {in_words(answer)}.")
     if abs(points).max() > 50:
-        raise ValueError(f"{wanted}; yours are up to {abs(points).max():.4g} m away")
+        raise ValueError(f"{wanted}; yours are up to {abs(points).max():.4g} m away.")
     return points
 
 
