@@ -15,6 +15,7 @@ from ..units import deg, mm
 from .answers import TROUBLE
 from .markdown import Text
 
+ACCEPTS = "accepts: "  # begins the mistake of a test that accepts a wrong program
 EMPTY = "There is no answer yet: write it into its cell, run that cell, then check again."
 
 
@@ -49,7 +50,8 @@ class Verdict:
         lines = [f"{self.exercise}: {word}."]
         if self.case:
             lines += self.case.split("\n")
-        if self.mistake and self.mistake not in TROUBLE:  # the case already shows it
+        shown = self.mistake in TROUBLE or (self.mistake or "").startswith(ACCEPTS)
+        if self.mistake and not shown:  # the case shows the others
             lines.append(f"The mistake: {self.mistake}.")
         return "\n".join([*lines, *self.says])
 
