@@ -400,7 +400,15 @@ def test_every_line_is_feasible_but_only_with_a_tilted_tool(who):
     for up, side in along:
         verdict = check("spherical_wrist.3", line | {"up": up, "side": side}, who=who)
         assert verdict.mistake in ("tilted along the line", "out of reach")
-    assert not check("spherical_wrist.3", dict.fromkeys(line, ...), who=who).answered
+    nothing = check("spherical_wrist.3", dict.fromkeys(line, ...), who=who)
+    assert not nothing.answered and "There is no answer yet" in repr(nothing)
+    for empty in (None, ...):
+        part = check("spherical_wrist.3", line | {"duration": empty}, who=who)
+        assert not part.answered and repr(part).split("\n") == [
+            "spherical_wrist.3: not answered yet.",
+            "There is no value for duration yet: write it into its cell, run that cell, then check "
+            "again.",
+        ]
     assert not check("spherical_wrist.3", {"up": 0}, who=who).holds
 
 

@@ -16,7 +16,7 @@ from .answers import TROUBLE
 from .markdown import Text
 
 ACCEPTS = "accepts: "  # begins the mistake of a test that accepts a wrong program
-EMPTY = "There is no answer yet: write it into its cell, run that cell, then check again."
+EMPTY = "There is no {} yet: write it into its cell, run that cell, then check again."
 
 
 @dataclass(frozen=True)
@@ -45,7 +45,7 @@ class Verdict:
 
     def __repr__(self) -> str:
         word = "holds" if self.holds else "does not hold" if self.answered else "not judged"
-        if self.says == (EMPTY,):
+        if not self.answered and self.says and self.says[0].endswith(EMPTY.partition("{}")[2]):
             word = "not answered yet"
         lines = [f"{self.exercise}: {word}."]
         if self.case:
@@ -85,9 +85,9 @@ class Exercise(ABC):
         """Return the verdict on an answer of the student `who`."""
 
 
-def unanswered(name: str) -> Verdict:
-    """Return the verdict on a missing answer."""
-    return Verdict(name, answered=False, says=(EMPTY,))
+def unanswered(name: str, what: str = "answer") -> Verdict:
+    """Return the verdict on an answer that is missing, or that lacks a part, `what`."""
+    return Verdict(name, answered=False, says=(EMPTY.format(what),))
 
 
 # --- Values as text -------------------------------------------------------------------------------
