@@ -394,7 +394,7 @@ def test_many_slow_cases_are_reported_together(monkeypatch):
     monkeypatch.setattr(answers, "TOTAL", 0.4)
     outcomes = answers.run(works, [(0.05,)] * 40)
     assert [o.name for o in outcomes[:-1]] == [None] * (len(outcomes) - 1) and len(outcomes) < 12
-    assert outcomes[-1].name == "too slow"
+    assert outcomes[-1].name == "too slow in all"
     assert outcomes[-1].says == f"{len(outcomes)} cases took more than 0 s together."
     assert answers.unended(outcomes[-1]) and answers.unended(answers.NEVER)
     assert not answers.unended(outcomes[0])

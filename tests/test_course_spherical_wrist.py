@@ -3,7 +3,9 @@ and the answer to every prediction is computed by another method.
 """
 
 import itertools
+import json
 import re
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -122,6 +124,45 @@ def test_frames_of_the_package_lack_the_fifth_column():
     verdict = check("spherical_wrist.1", lambda *c: _frames_of_an_arm(*c, first=1))
     assert not verdict.holds and "beta is left out" in verdict.mistake
     assert "the frame after the joint" in verdict.mistake
+
+
+def _every_frame(*case):
+    """The frames after the rows, too: n + 1 of them."""
+    points, ways = _with_the_package(*(np.append(column, 0.0) for column in case))
+    return points, ways
+
+
+def _views(a, alpha, d, offset, beta, q):
+    """Views of one array that changes afterwards: all of them show the last frame."""
+    frame, points, ways = np.eye(4), [], []
+    for i in range(len(q)):
+        points.append(frame[:3, 3])
+        ways.append(frame[:3, 2])
+        row = rot(2, offset[i] + q[i]) @ SHARED["trans"](a[i], 0, d[i]) @ rot(0, alpha[i])
+        frame[:] = frame @ row @ rot(1, beta[i])
+    return points, ways
+
+
+def _rows(a, alpha, d, offset, beta, q):
+    """Rows of each rotation and matrix, where columns are wanted."""
+    made = [np.eye(4)]
+    for i in range(len(q) - 1):
+        made.append(made[-1] @ rot(2, offset[i] + q[i]) @ rot(0, alpha[i]) @ rot(1, beta[i]))
+    return np.zeros((len(q), 3)), [matrix[2, :3] for matrix in made]
+
+
+@pytest.mark.parametrize(
+    ("answer", "name", "why"),
+    [
+        (_every_frame, "a frame too many", "leave it out"),
+        (_views, "the last frame in every row", "copy"),
+        (_rows, "rows instead of columns", "frame[:3, 3]"),
+    ],
+)
+def test_frames_too_many_and_views_are_recognised(answer, name, why):
+    verdict = check("spherical_wrist.1", answer)
+    assert verdict.mistake == name and any(why in line for line in verdict.says), verdict
+    assert "1 joints" not in verdict.case
 
 
 def _swapped_elsewhere(*case):
@@ -265,6 +306,7 @@ def _blind(program):
 def test_loose_comparisons_are_reported(test, name, why):
     verdict = check("spherical_wrist.2", test)
     assert verdict.mistake == f"accepts: {name}" and any(why in line for line in verdict.says)
+    assert f"{name}\n" in repr(verdict) and "The mistake" not in repr(verdict)  # the case names it
 
 
 def test_code_in_hints_can_be_run():
@@ -331,6 +373,7 @@ def test_every_line_is_feasible_but_only_with_a_tilted_tool(who):
     }
     for mistake, answer in named.items():
         assert check("spherical_wrist.3", answer, who=who).mistake == mistake
+    assert "The mistake: too slow." in repr(check("spherical_wrist.3", named["too slow"], who=who))
     wrong_side = {"up": -up, "side": -side, "duration": line["duration"]}
     assert check("spherical_wrist.3", wrong_side, who=who).mistake == "tilted to the wrong side"
     small = {"up": -np.sign(up) * 0.9 * n["most_tilt"], "side": 0.0, "duration": line["duration"]}
@@ -357,8 +400,35 @@ def test_every_line_is_feasible_but_only_with_a_tilted_tool(who):
     for up, side in along:
         verdict = check("spherical_wrist.3", line | {"up": up, "side": side}, who=who)
         assert verdict.mistake in ("tilted along the line", "out of reach")
-    assert not check("spherical_wrist.3", dict.fromkeys(line, ...), who=who).answered
+    nothing = check("spherical_wrist.3", dict.fromkeys(line, ...), who=who)
+    assert not nothing.answered and "There is no answer yet" in repr(nothing)
+    for empty in (None, ...):
+        part = check("spherical_wrist.3", line | {"duration": empty}, who=who)
+        assert not part.answered and repr(part).split("\n") == [
+            "spherical_wrist.3: not answered yet.",
+            "There is no value for duration yet: write it into its cell, run that cell, then check "
+            "again.",
+        ]
     assert not check("spherical_wrist.3", {"up": 0}, who=who).holds
+
+
+def test_played_line_says_what_is_missing(capsys):
+    """The cell that plays a line is not silent if the duration is 0 or less."""
+    file = Path(__file__).parent.parent / "notebooks" / "06_spherical_wrist.ipynb"
+    cells = json.loads(file.read_text(encoding="utf-8"))["cells"]
+    sources = {cell["id"]: "".join(cell["source"]) for cell in cells}
+    for line, said in (
+        ({"up": ..., "side": ..., "duration": ...}, ""),
+        ({"up": 0.01, "side": 0.02, "duration": 0}, "duration 0 s: it must be greater than 0"),
+        ({"up": 0.01, "side": 0.02, "duration": -1.5}, "duration -1.5 s: it must be greater than"),
+        ({"up": 0.01, "side": 0.02, "duration": 2}, "duration 2.00 s, at most"),
+    ):
+        space = {"variant": variant}
+        exec(sources["given-3"], space)
+        space["my_line"] = line
+        exec(sources["play-3"], space)
+        out = capsys.readouterr().out
+        assert said in out and (said or not out), out
 
 
 # --- Answers to the predictions, by other methods -------------------------------------------------

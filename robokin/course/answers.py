@@ -53,7 +53,7 @@ TROUBLE = {
     "returns None",
     "prints instead of returning",
     "never ends",
-    "too slow",
+    "too slow in all",
 }
 
 
@@ -85,7 +85,7 @@ def is_stub(answer: Any) -> bool:
 
 def unended(outcome: Outcome) -> bool:
     """Return whether this call was stopped because it took too long."""
-    return outcome.name in ("never ends", "too slow")
+    return outcome.name in ("never ends", "too slow in all")
 
 
 def run(answer: Callable[..., Any], cases: Sequence[tuple[Any, ...]]) -> list[Outcome]:
@@ -228,7 +228,7 @@ class _Worker:
         """The outcome of the last of `cases` cases, which was stopped."""
         if self.over == "all":
             says = f"{cases} cases took more than {TOTAL:.0f} s together."
-            return Outcome(name="too slow", says=says)
+            return Outcome(name="too slow in all", says=says)
         return NEVER if self.over == "case" else _never(WALL)
 
     def _answer(self) -> None:

@@ -8,7 +8,7 @@ import numpy as np
 
 from . import edits
 from .answers import Outcome, is_stub, run
-from .exercises import Exercise, Verdict, in_words, unanswered
+from .exercises import ACCEPTS, Exercise, Verdict, in_words, unanswered
 from .markdown import BadFile, Text
 
 ASSERTS = "It raises AssertionError"  # the beginning of a sentence from `answers.run`
@@ -122,7 +122,7 @@ class Catch(Exercise):
         elif rejected:
             named = "rejects a correct program"
         else:
-            named = f"accepts: {slipped[0][0]}"
+            named = f"{ACCEPTS}{slipped[0][0]}"
         if rejected:
             case = f"  a correct program that it rejects: {rejected[0][0]}"
             says += self._rejection(answer, rejected[0][1])

@@ -15,7 +15,8 @@ from ..units import deg, mm
 from .answers import TROUBLE
 from .markdown import Text
 
-EMPTY = "There is no answer yet: write it into its cell, run that cell, then check again."
+ACCEPTS = "accepts: "  # begins the mistake of a test that accepts a wrong program
+EMPTY = "There is no {} yet: write it into its cell, run that cell, then check again."
 
 
 @dataclass(frozen=True)
@@ -44,12 +45,13 @@ class Verdict:
 
     def __repr__(self) -> str:
         word = "holds" if self.holds else "does not hold" if self.answered else "not judged"
-        if self.says == (EMPTY,):
+        if not self.answered and self.says and self.says[0].endswith(EMPTY.partition("{}")[2]):
             word = "not answered yet"
         lines = [f"{self.exercise}: {word}."]
         if self.case:
             lines += self.case.split("\n")
-        if self.mistake and self.mistake not in TROUBLE:  # the case already shows it
+        shown = self.mistake in TROUBLE or (self.mistake or "").startswith(ACCEPTS)
+        if self.mistake and not shown:  # the case shows the others
             lines.append(f"The mistake: {self.mistake}.")
         return "\n".join([*lines, *self.says])
 
@@ -83,9 +85,9 @@ class Exercise(ABC):
         """Return the verdict on an answer of the student `who`."""
 
 
-def unanswered(name: str) -> Verdict:
-    """Return the verdict on a missing answer."""
-    return Verdict(name, answered=False, says=(EMPTY,))
+def unanswered(name: str, what: str = "answer") -> Verdict:
+    """Return the verdict on an answer that is missing, or that lacks a part, `what`."""
+    return Verdict(name, answered=False, says=(EMPTY.format(what),))
 
 
 # --- Values as text -------------------------------------------------------------------------------

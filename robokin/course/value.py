@@ -39,8 +39,16 @@ class Value(Exercise):
     def judge(self, name: str, answer: Any, who: Any) -> Verdict:
         if is_stub(answer):
             return unanswered(name)
-        if isinstance(answer, Mapping) and any(v is None or v is ... for v in answer.values()):
-            return unanswered(name)
+        if isinstance(answer, Mapping):
+            empty = [
+                in_words(key).strip("'")
+                for key, value in answer.items()
+                if value is None or value is ...
+            ]
+            if len(empty) == len(answer) > 0:
+                return unanswered(name)
+            if empty:
+                return unanswered(name, f"value for {' and for '.join(empty)}")
         if isinstance(answer, tuple) and answer and all(v is None or v is ... for v in answer):
             return unanswered(name)
         if self.given and who is None:

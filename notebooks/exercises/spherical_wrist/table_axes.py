@@ -115,7 +115,8 @@ def law(case: tuple[Any, ...], yours: Axes, wanted: Axes) -> str | None:
     """A message about the first wrong axis."""
     points, ways, n = wanted.points, wanted.ways, len(wanted.points)
     if len(yours.rows) != n:
-        return f"wanted points and directions of {n} joints, got {len(yours.rows)} of each"
+        joints = "1 joint" if n == 1 else f"{n} joints"
+        return f"wanted points and directions of {joints}, got {len(yours.rows)} of each"
     for i, (point, way) in enumerate(zip(points, ways, strict=True)):
         place = ", ".join(f"{x / mm:.1f}" for x in np.round(point, 9) + 0.0)
         along = ", ".join(f"{x:.3f}" for x in np.round(way, 9) + 0.0)
