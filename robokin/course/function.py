@@ -326,7 +326,9 @@ class Function(Exercise):
             for k in order:
                 mine = outcomes[k]
                 try:
-                    other = self.formed(Outcome(candidate.result(k)), k)
+                    result = candidate.result(k)
+                    none = Outcome(name="returns None")
+                    other = none if result is None else self.formed(Outcome(result), k)
                 except Exception:
                     other = Outcome(name="raises an error")
                 if mine.name != other.name:
