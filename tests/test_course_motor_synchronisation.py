@@ -9,7 +9,7 @@ import pytest
 from conftest import NOTEBOOKS
 
 from robokin import deg, loader_arm
-from robokin.course import book, check, solution, variant
+from robokin.course import book, check, predict, solution, variant
 from robokin.jobs.steppers import counts, frequencies, shortest_turn, station_postures
 
 A, B, E = 0.45, 0.3, 0.1
@@ -152,16 +152,63 @@ def test_mistakes_in_drives_are_named():
         assert check("motor_synchronisation.2", drive, who="Ada").mistake == name
 
 
-def test_reply_gives_both_postures_in_degrees_and_does_not_give_away_the_rule():
+def test_shoulder_taken_along_x_and_none_for_no_posture_are_named():
+    def along_x(point, before):
+        x, y, z = map(float, point)
+        u = math.hypot(x - E, y)
+        h = math.hypot(u, z)
+        if not A - B <= h <= A + B:
+            return np.full(3, np.nan)
+        gamma = math.acos((A * A + h * h - B * B) / (2 * A * h)) + math.atan2(z, u)
+        return [right(x, y, before), gamma, math.acos((A * A + B * B - h * h) / (2 * A * B))]
+
+    def nothing(point, before):
+        q = np.array(posture(right)(point, before))
+        return None if np.isnan(q).any() else q
+
+    verdict = check("motor_synchronisation.1", along_x)
+    assert verdict.mistake == "the shoulder along x"
+    verdict = check("motor_synchronisation.1", nothing)
+    assert not verdict.holds and verdict.mistake == "None instead of NaN"
+    assert any("return three NaNs" in line for line in verdict.says)
+
+
+@pytest.mark.parametrize("signs", [(-1, -1, -1), (1, -1, 1), (1, 1, -1)])
+def test_negative_frequencies_do_not_hold(signs):
+    own, q, gears = move("Ada")
+    omega = frequencies(pulses(q, gears), own["most"])
+    drive = {"gears": gears, "frequencies": omega * signs}
+    verdict = check("motor_synchronisation.2", drive, who="Ada")
+    assert not verdict.holds and any("positive" in line for line in verdict.says)
+    assert check("motor_synchronisation.2", {**drive, "frequencies": omega}, who="Ada").holds
+
+
+@pytest.mark.parametrize(
+    ("question", "number", "told"),
+    [
+        ("p2", 190, "after the first turn"),
+        ("p4", 250, "do not share"),
+        ("p9", 43.2, "two full steps"),
+    ],
+)
+def test_wrong_numbers_in_predictions_are_named(question, number, told):
+    reply = str(predict(f"motor_synchronisation.{question}", number))
+    assert told in " ".join(reply.split())
+
+
+@pytest.mark.parametrize("of_size", [False, True])
+def test_reply_gives_both_postures_in_degrees_and_does_not_give_away_the_rule(of_size):
     def low(point, before):
-        """Takes the elevation from arcsin, which is never above 90 degrees."""
+        """Takes the elevation from arcsin, or from abs(u): it is never above 90 degrees."""
         alpha, gamma, beta = posture(right)(point, before)
         u = np.hypot(*point[:2]) - E
         h = np.hypot(u, point[2])
-        return [alpha, gamma - math.atan2(point[2], u) + math.asin(point[2] / h), beta]
+        low = math.atan2(point[2], abs(u)) if of_size else math.asin(point[2] / h)
+        return [alpha, gamma - math.atan2(point[2], u) + low, beta]
 
     verdict = check("motor_synchronisation.1", low)
-    assert verdict.mistake == "arcsin(z / h) for gamma 2"
+    assert verdict.mistake == "gamma 2 never above 90°"
+    assert not any("You used arcsin" in line for line in verdict.says)
     asked, given = re.search(
         r"α, γ, β should be (.*) degrees, not (.*); your", verdict.case
     ).groups()

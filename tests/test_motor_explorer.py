@@ -15,6 +15,7 @@ from conftest import until
 from robokin.jobs.steppers import Stepper, phases, ramp
 from robokin.show import motor_explorer
 from robokin.show.joiner import script
+from robokin.show.motors import WORDS
 
 context, opened = test_explorers.context, test_explorers.opened  # fixtures
 MOTORS = {
@@ -127,6 +128,20 @@ def test_page_reports_the_lost_steps_that_python_finds(opened):
     shown.choose("rotor, feed", 2)
     told, ours, code = lost(shown)
     assert told == ours and code["motor"].rotor == "passive" and code["motor"].windings == 4
+
+
+@pytest.mark.parametrize("motor", [Stepper(), MOTORS["table 2"]], ids=["table 1", "table 2"])
+def test_a_motor_alone_has_no_others_in_its_menus(opened, motor):
+    whole, alone = motor_explorer(motor), motor_explorer(motor, alone=True)
+    [kind] = alone.data["kinds"]
+    [only] = kind["motors"]
+    assert (kind["rotor"], kind["motor"]) == (motor.rotor, motor.motor)
+    assert only["windings"] == motor.windings and repr(alone) == repr(whole)
+    words = alone.data["meant"]
+    assert all(f" {WORDS[key]}" in words for key in ("step", "holding", "starting", "commutation"))
+    assert WORDS["startFrequency"] in words
+    assert len(whole.data["kinds"]) == 3 and WORDS["commutation"] not in whole.data["meant"]
+    assert lost(opened(alone))[:2] == lost(opened(whole))[:2]
 
 
 @pytest.mark.parametrize("motor", [Stepper(), MOTORS["table 2"]], ids=["table 1", "table 2"])

@@ -40,7 +40,7 @@ from robokin import (
 )
 from robokin.course import book
 from robokin.jobs.obstacles import in_quadrilateral, plan, via_path
-from robokin.jobs.steppers import Stepper, phases, ramp, station_postures
+from robokin.jobs.steppers import Stepper, phases, ramp, station_postures, straight
 from robokin.jobs.visit_collect import Task, TaskError, principal_postures
 
 LINE = book.lab("puma560_branches").module("predictions")
@@ -856,6 +856,33 @@ def test_motors_reverse_on_the_straight_line_where_the_lab_says():
     assert nearest < back[1][0] < nearest + 0.2
 
 
+def test_straight_line_is_path_b_in_exactly_the_cases_that_lab_11_states():
+    assert (
+        "If the distance from the base and the elevation of the first lever each only grow or only "
+        "shrink along the line" in flat("11", "able")
+    )
+    start, loader = np.array([600, -350, 50]) * mm, loader_arm(0.45, 0.30)
+    rng, found = np.random.default_rng(11), []
+
+    def back(x):
+        """By how much x goes back, in all, on its way from its first value to its last."""
+        return abs(np.diff(x)).sum() - abs(x[-1] - x[0])
+
+    while len(found) < 150:
+        goal = rng.uniform([-0.7, -0.7, 0], [0.7, 0.7, 0.6])
+        try:
+            move = straight(loader, start, goal, [10, 40, 40])
+        except ValueError:
+            continue  # out of reach
+        line = start + np.linspace(0, 1, 4001)[:, None] * (goal - start)
+        gamma = station_postures(loader, line)[:, 1]
+        turns = any(signs.size and np.ptp(signs) > 0 for _, signs in move.pulses())
+        found.append(turns)
+        pulse = 1 / 40 * deg  # a motor that goes back by less than this does not reverse
+        assert turns != (back(np.linalg.norm(line, axis=1)) < 0.1 * mm and back(gamma) < 2 * pulse)
+    assert 10 < sum(found) < 140
+
+
 def test_motor_without_pulses_stands_still_in_lab_11():
     text = cells("11")["together-code"]
     made = {}
@@ -888,7 +915,7 @@ def test_answers_to_the_drag_tasks_of_lab_11_are_true():
     """The tasks are about path b, the limits of reach, the drift of the cycle and half steps."""
     start, loader = np.array([600, -350, 50]) * mm, loader_arm(0.45, 0.30)
     goal = numbers(
-        r"For \((\S+), (\S+), (\S+)\) mm, for example: on this line, no motor", flat("11", "able")
+        r"only shrink along the line, as for \((\S+), (\S+), (\S+)\) mm\.", flat("11", "able")
     )
     share = np.linspace(0, 1, 2001)[:, None]
     line = start + share * (np.array(goal) * mm - start)
@@ -910,6 +937,10 @@ def test_answers_to_the_drag_tasks_of_lab_11_are_true():
     after = before + np.deg2rad([0.1, 0, -1 / 40])
     one, two = loader.fk(before).translation, loader.fk(after).translation
     around, down = np.hypot(*(two - one)[:2]), one[2] - two[2]
+    [(off, cycles)] = re.findall(r"by (\d+) mm in (\d+) cycles", flat("11", "drift-look"))
+    pulses = np.rint(made["exact"][0]) + int(cycles) * made["left_over"]
+    away = loader.fk(np.deg2rad(pulses / [10, 40, 40])).translation - [0.6, -0.35, 0.05]
+    assert round(np.linalg.norm(away) / mm, -1) == float(off)
     assert np.cross(one, two)[2] > 0 and around / 20 < down < around / 5
     rows = {drive: len(phases(drive, "unipolar")) for drive in ("wave", "half-step")}
     eight, small, large = numbers(
@@ -918,6 +949,10 @@ def test_answers_to_the_drag_tasks_of_lab_11_are_true():
     )
     assert eight == rows["half-step"]
     assert (small, large) == (360 / eight, 360 / rows["wave"])
+    wanted = numbers(r"turn such a rotor by (\S+)°\?", flat("11", "phases-own"))
+    assert "`[-1] * 5`, only in half-step drive" in flat("11", "phases-own")
+    assert [-5 * 360 / eight / 50] == wanted
+    assert wanted[0] / 1.8 % 1, "whole steps are enough"
 
 
 def test_long_turns_and_lost_steps_are_as_stated():

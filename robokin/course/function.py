@@ -142,6 +142,8 @@ class Function(Exercise):
         """Return the outcome of case k with its result converted by `form`."""
         if outcome.name:
             return outcome
+        if outcome.result is None:  # of a wrong program of the exercise; an answer has a name
+            return Outcome(name="returns None", says="It returns None.")
         try:
             wanted = None if "form" in self.code else self.wanted[k]
             return Outcome(self.form(outcome.result, self.cases[k], wanted))

@@ -14,6 +14,7 @@ import numpy as np
 from .._validate import instance
 from ..jobs.steppers import FINE, LIMIT, NEARLY, ROTORS, SETTLED, SLOWEST, Stepper, phases
 from . import plots
+from .checks import yes
 from .explorer import Explorer
 from .explorer_page import Control
 from .palette import FAINT, INK, JOINT_STYLES, PANEL_GRID, REMARK, SOFT
@@ -77,6 +78,13 @@ WORDS = {
 MEANT = (
     "Take hold of the ring on the rotor, turn it away, and let it go. Click a row of the table to "
     "switch its windings on. The load is a weight on a drum: it always pulls backwards."
+)
+MEANT_ALONE = (
+    " The values beside the table: a pulse turns the rotor by one step. The motor can hold a load "
+    "up to the holding torque, and slowly move one up to the starting torque. Without a ramp, it "
+    "follows from rest up to the maximum start frequency. Above the maximum commutation frequency, "
+    "a current does not come within 5 % of its final value before the next pulse: the windings "
+    "pull less, but a strong motor can still follow."
 )
 Quantity: TypeAlias = Literal["end", "load", "inertia", "start", "ramp"]
 CONTROLS: Sequence[tuple[Quantity, float, str, str, float, float, float, int]] = (
@@ -201,15 +209,17 @@ class PageMotors(TypedDict):
     code: str
 
 
-def motor_explorer(motor: Stepper | None = None) -> Explorer:
+def motor_explorer(motor: Stepper | None = None, *, alone: bool = False) -> Explorer:
     """Show a stepper motor along its shaft: the windings, coloured by their currents, the field,
     and a rotor that the reader can turn. Next to it is the phase table, in which the current row is
     marked. Pulses are sent one by one or as a run at a frequency, with a load and a ramp; lost
     steps are counted and drawn over time. Menus choose rotor, feed, windings and drive.
 
     The explorer opens with `motor`, by default the motor of the document's table 1. All motors in
-    it have the torque, inertia, damping and `rise` of `motor`. Raises TypeError if `motor` is not a
-    Stepper, and ValueError if its runs take too long to compute.
+    it have the torque, inertia, damping and `rise` of `motor`. With `alone`, the menus offer no
+    other rotor, feed or number of windings, and the explanation below the view says what the
+    motor's properties mean. Raises TypeError if `motor` is not a Stepper, and ValueError if its
+    runs take too long to compute.
     """
     opened = Stepper() if motor is None else instance(motor, Stepper, "motor")
     kind = opened.rotor, opened.motor
@@ -220,7 +230,14 @@ def motor_explorer(motor: Stepper | None = None) -> Explorer:
         f"{PULSES} pulses at {FREQUENCY} per second: "
         + (f"{lost} steps lost." if lost else "no steps lost.")
     )
-    return Explorer(_page(opened, summary), _picture(opened, summary))
+    page = _page(opened, summary)
+    if yes(alone, "alone"):
+        chosen = page["opening"]
+        only = page["kinds"][chosen["kind"]]
+        only["motors"] = [only["motors"][chosen["motor"]]]
+        page["kinds"], page["meant"] = [only], MEANT + MEANT_ALONE
+        chosen["kind"] = chosen["motor"] = 0
+    return Explorer(page, _picture(opened, summary))
 
 
 # --- Page data ------------------------------------------------------------------------------------

@@ -85,9 +85,12 @@ def form(answer: Any, numbers: Any) -> Drive:
     gears, omega = found
     if (gears < 1).any() or (gears % 1).any() or (gears > 100_000).any():
         raise ValueError(f"gears: wanted whole numbers from 1 up, got {in_words(gears)}")
-    if (omega == 0).any():
-        raise ValueError(f"frequencies: every motor has to move, got {in_words(omega)}")
-    return gears, abs(omega)
+    if (omega <= 0).any():
+        raise ValueError(
+            "frequencies: wanted three positive numbers, because every motor has to move and the "
+            f"direction is in the sign of the pulses, got {in_words(omega)}"
+        )
+    return gears, omega
 
 
 def faults(drive: Drive, numbers: Any) -> list[Fault]:

@@ -7,7 +7,8 @@ import numpy as np
 from robokin import deg, mm
 from robokin.jobs.steppers import shortest_turn, station_postures
 from robokin.show import JOINT_STYLES, figure
-from robokin.show.palette import COMPARED, INK
+from robokin.show.palette import INK
+from robokin.show.paths_explorer import LOOKS
 
 from .predictions import geared, p1, p3, p4, p5, p6, p9, path, random_moves
 from .shared import LOADER
@@ -67,7 +68,8 @@ def p5_view() -> Any:
     )
     fig = figure(says, 5.4, 4.2)
     ax = fig.subplots()
-    for (name, move), (color, dash) in zip(geared().items(), COMPARED, strict=False):
+    for name, move in geared().items():
+        color, dash = LOOKS[name]  # as in the views of the lab
         way = path(move)
         ax.plot(way[:, 0], way[:, 1], dash, color=color, lw=2.2)
         x, y, _ = way[500]

@@ -48,6 +48,7 @@ def p2() -> dict[str, Any]:
     return {
         "at": at,
         "back": -60.0,
+        "once": 170 + float(shortest_turn(170 * deg, -170 * deg)) / deg,
         "turns": at - 170,
         "one": one_sided,
         "radians": at * deg,
@@ -70,6 +71,7 @@ def p4() -> dict[str, Any]:
         "inverse": 500.0 * 1200 / 300,
         "share": 500.0 * 300 / pulses.sum(),
         "full": 500.0,
+        "half": 500 / 2,
         "third": 500 / 3,
         "milli": float(frequencies(pulses)[1]) / 1000,
         "right": "a quarter",
@@ -148,6 +150,7 @@ def p9() -> dict[str, Any]:
         "radians": field / 50 * deg,
         "field": field,
         "full": 12 * STEP,
+        "doubled": 12 * 2 * STEP,
         "rows": 12 / 8 * STEP,
         "right": "half steps",
     }
