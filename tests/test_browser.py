@@ -231,6 +231,36 @@ def test_arrow_keys_reach_the_slider_and_not_the_notebook(jupyter, page):
     )
 
 
+def test_shift_enter_runs_the_next_cell_from_a_control_as_from_the_cell(jupyter, page):
+    jupyter.open(page, "00_start_here.ipynb")
+    jupyter.run_all(page, "00_start_here.ipynb")
+    page.locator(PLAYER).first.wait_for()
+    awake(page)
+    active = (
+        "() => [...document.querySelectorAll('.jp-Cell')].findIndex(cell => "
+        "cell.matches('.jp-mod-active'))"
+    )
+    view = page.locator(PLAYER).first
+    view.scroll_into_view_if_needed()
+    for control in ("[data-handle]", "button"):
+        node = view.locator(control).locator("visible=true").first
+        text = view.inner_text()
+        node.hover()
+        page.mouse.down()  # a click in its output makes the view's cell the active one
+        page.mouse.up()
+        node.focus()
+        cell, text = page.evaluate(active), view.inner_text()
+        node.press("ArrowRight")
+        assert page.evaluate(active) == cell, f"{control}: an arrow left the cell"
+        node.press("Shift+Enter")
+        until(
+            lambda cell=cell: page.evaluate(active) == cell + 1,
+            f"{control}: Shift+Enter does not go to the next cell",
+            page,
+        )
+    assert page.errors == []
+
+
 def test_players_of_a_trusted_notebook_play_before_any_cell_runs(jupyter, page):
     name = _variant(jupyter, "trusted.ipynb")
     jupyter.trust(name)

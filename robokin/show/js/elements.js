@@ -32,15 +32,25 @@ export function element(tag, attributes = {}, ...children) {
 
 /**
  * An input element. JupyterLab handles arrow keys and Space itself unless the focused element
- * forbids it.
+ * forbids it. Shift+Enter runs the cell, as it does in the rest of the notebook.
  * @template {keyof HTMLElementTagNameMap} T
  * @param {T} tag
  * @param {Attributes} attributes
  * @param {...(string | Node)} children
  * @returns {HTMLElementTagNameMap[T]}
  */
-export const control = (tag, attributes, ...children) =>
-  element(tag, {"data-lm-suppress-shortcuts": "true", ...attributes}, ...children);
+export function control(tag, attributes, ...children) {
+  const forbids = "data-lm-suppress-shortcuts",
+    node = element(tag, {[forbids]: "true", ...attributes}, ...children);
+  node.addEventListener("keydown", event => {
+    if (!event.isTrusted || !event.shiftKey || event.key !== "Enter") return;
+    event.preventDefault(); // a button would be pressed
+    node.removeAttribute(forbids);
+    node.dispatchEvent(new KeyboardEvent("keydown", event));
+    node.setAttribute(forbids, "true");
+  });
+  return node;
+}
 
 /**
  * A menu. Its value is the index of the chosen option.
