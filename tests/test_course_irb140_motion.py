@@ -589,7 +589,6 @@ def test_nothing_outside_the_predictions_reveals_an_answer():
         ("bezier-code", "start via goal"),
         ("effect-view", "start via goal"),
         ("diff-halve", "start via goal"),
-        ("diff-spike-code", "left right"),
         ("your-turn-code", "start via goal"),
         ("laws-numbers", "left right"),
         ("diff-orders", "left right"),

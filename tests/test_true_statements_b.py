@@ -1,10 +1,11 @@
-"""Statements of labs 07 to 12, checked by a second calculation: each test reads the number from its
+"""Statements of labs 07 to 13, checked by a second calculation: each test reads the number from its
 cell or prediction, so that text and number cannot diverge.
 """
 
 import functools
 import inspect
 import json
+import math
 import re
 from itertools import pairwise
 
@@ -23,7 +24,7 @@ from robokin.course.book import lab as content
 from robokin.course.questions import filled
 from robokin.jobs import redundancy
 from robokin.jobs.obstacles import keeps, way_round
-from robokin.jobs.steppers import ramp
+from robokin.jobs.steppers import Stepper, ramp
 from robokin.jobs.visit_collect import Task, travel_time, workspace
 from robokin.show import motor_explorer
 
@@ -622,11 +623,13 @@ def test_start_frequency_and_lost_steps_are_as_stated(capsys):
         "13", "missed-look", r"At (\d+) pulses .* at (\d+) it loses (\d+)\."
     )
     assert (top_said, after, lost) == (top, top + 1, 48 - steps(top + 1))
-    pace, mNm = said("13", "missed-look", r"at (\d+) pulses/s, a load torque of (\d+) mN m")
+    pace, mNm = said("13", "load-torque", r"at (\d+) pulses/s, with a load torque of (\d+) mN m")
     held = motor.run(np.arange(1, 49) / pace, np.ones(48), load=mNm / 1000)
     assert held.lost == 0 and motor.run(np.arange(1, 49) / 100, np.ones(48), load=mNm / 1000).lost
-    assert "motor_explorer(motor)" in cells("13")["load-explorer"]
+    for view in ("load-hand", "load-explorer"):
+        assert "motor_explorer(motor)" in cells("13")[view]
     assert motor == made["Stepper"](rise=0), "the motor of the first view"
+    assert run("13", "load-hand")["motor"] == motor and run("13", "load-hand")["J"] == inertia
     assert repr(motor_explorer(motor)).endswith("44 steps lost.")
     _, options, _ = asked("motor_synchronisation.p10")
     assert f"loses {48 - steps(160)} of 48" in options[2].reason
@@ -636,6 +639,61 @@ def test_start_frequency_and_lost_steps_are_as_stated(capsys):
         motor.run(ramp(48, *x), np.ones(48)).lost for f in tempos for x in ((f, f, 0), (40, f, 0.1))
     }
     assert min(lost - {0}) == few
+
+
+def test_a_load_torque_holds_the_rotor_back_as_stated():
+    """The rotor rests where the pull of the field is the load; a pulse adds 90° to the lag."""
+    held, lag = said(
+        "13", "load", r"\*load torque\* in the view below to (\d+) mN.*a lag of (\d+)°"
+    )
+    makes, fails = said("13", "load", r"Then set (\d+) and press .* set (\d+) and press")
+    least, after, step, pull, most = said(
+        "13",
+        "load-torque",
+        r"With (\d+) mN m, the weight runs away.* lag is (\d+)° \+ (\d+)°, .* pulls with only "
+        r"(\d+) mN m.* here (\S+) mN m, is its \*starting torque\*",
+    )
+    motor = run("13", "load-hand")["motor"]
+    torque = 1000 * motor.torque
+    assert torque * math.sin(math.radians(lag)) == pytest.approx(held)
+    assert least == fails and step == math.degrees(motor.step)
+    assert after == round(math.degrees(math.asin(fails / torque)))
+    assert pull == round(torque * math.cos(math.asin(fails / torque))) < fails
+    assert most == round(1000 * motor.starting_torque, 1) and makes < most < fails
+    # the lag after the pulse of a load that the motor can just move is as far from 90° as before it
+    assert 1000 * motor.starting_torque == pytest.approx(torque * math.sin(math.pi / 4))
+    for load, backwards in ((makes, False), (fails, True)):
+        end = one_pulse(motor, load / 1000)
+        rest = math.pi / 2 - math.asin(load / torque)
+        assert end < -2 * math.pi if backwards else end == pytest.approx(rest, abs=1e-3)
+
+
+def one_pulse(motor, load):
+    """The angle of the rotor half a second after one pulse, from rest under this load; SciPy."""
+    rest = -math.asin(load / motor.torque)
+
+    def moves(_, state):
+        drag = motor.damping * state[1] + load
+        return state[1], (motor.torque * math.sin(math.pi / 2 - state[0]) - drag) / motor.inertia
+
+    return solve_ivp(moves, (0, 0.5), (rest, 0), rtol=1e-8, atol=1e-8).y[0, -1]
+
+
+def test_iron_rotor_loses_multiples_of_three_steps_and_resonates():
+    call = re.search(r"Stepper\(.*\)(?=\))", cells("13")["pull-explorer"])[0]
+    motor = eval(call, {"Stepper": Stepper})
+    fast, slow = said("13", "missed-look", r"\*frequency\* in its view to (\d+), then to (\d+)")
+    many, at, few, again, none, swings = said(
+        "13",
+        "missed-look",
+        r"(\d+) at (\d+) pulses/s\. It also loses (\d+) at (\d+) pulses/s, but none at (\d+):.* "
+        r"swings about (\d+) times per second",
+    )
+    assert (at, again) == (fast, slow) and len(motor.currents) == 3
+    lost = {f: motor.run(np.arange(1, 49) / f, np.ones(48)).lost for f in (fast, slow, none)}
+    assert lost == {fast: many, slow: few, none: 0} and not any(n % 3 for n in lost.values())
+    free = math.sqrt(motor.periods * motor.torque / motor.inertia) / (2 * math.pi)
+    assert round(free, -1) == swings == slow
 
 
 def test_labs_on_motors_do_not_mention_missing_tables():

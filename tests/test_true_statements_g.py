@@ -14,7 +14,7 @@ import pytest
 from scipy.optimize import minimize_scalar
 from test_true_statements_b import ARM, asked, cells
 from test_true_statements_b import run as run_cells
-from test_true_statements_c import flat, numbers
+from test_true_statements_c import flat, numbers, shown
 from test_true_statements_f import one_line, option, says
 
 from robokin import deg, dh_links, elbow_arm, spbu_arm
@@ -429,11 +429,16 @@ def test_belt_table_shows_one_stream_and_other_streams_need_one_more_arm():
     words = flat("14", "belt-look")
     assert "at all six speeds. At spread 0.5, it is one arm too few at three of these" in words
     assert "speeds; at spread 1, it is one arm too few at five of them." in words
-    assert "All this is for one order of the gaps, `seed=8`." in words
     assert (
-        "With each of the next four orders, 9 to 12, spread 1 needs a fourth arm at 200 mm/s and "
-        "a fifth at 300 mm/s." in words
+        'All this is for one order of the gaps, `seed=8`; other orders need another arm ("More").'
+        in words
     )
+    assert (
+        "With each of the next four, 9 to 12, spread 1 needs a fourth arm at 200 mm/s and a fifth "
+        "at 300 mm/s." in flat("14", "deeper")
+    )
+    printed = shown("14", "deeper-orders")
+    assert "200 mm/s: 3 4 4 4 4\n300 mm/s: 4 5 5 5 5" in printed
     speeds = (0.05, 0.1, 0.15, 0.2, 0.25, 0.3)
     rounded_up = [math.ceil(2 * WAYS.min() * v / 0.15) for v in speeds]
     few = [
@@ -480,9 +485,8 @@ def test_one_arm_brings_as_many_objects_by_each_rule_as_stated(monkeypatch):
         'At each spread, "back soonest" brings four or five in these six seconds, and "first come" '
         "brings two." in flat("14", "belt-one-arm")
     )
-    cell = cells("14")["belt-player"]
-    assert "v_shown = 150 * mm" in cell
-    assert "conveyor_player(v_shown, [0, 0.5, 1], arms=1, rules=True)" in cell
+    call = "conveyor_player(0.15, [0, 0.5, 1], arms=1, rules=True)"
+    assert call in cells("14")["belt-player"]
     # `animate` returns its arguments
     monkeypatch.setattr("robokin.show.conveyor.animate", lambda *given, **named: (given, named))
     (_, clock, (q,)), named = conveyor_player(0.15, [0, 0.5, 1], arms=1, rules=True)
@@ -528,24 +532,64 @@ def test_first_come_is_never_worse_for_one_arm_that_must_miss_none():
                 stream = 1000 * belt_stream(spread, seed)
                 assert not len(rule(stream / most, most / 1000)[1])
                 assert len(rule(stream / (most + 5), (most + 5) / 1000)[1])
-    assert (
-        "At 150 mm/s, an arm that follows this rule is late for nearly every object, and takes "
-        'fewer than half as many as under "back soonest"' in words
+
+
+def test_twice_the_gap_does_not_double_the_speed_for_uneven_gaps():
+    words = flat("14", "belt-curve-look")
+    assert "With a mean gap of 300 mm, the speed at spread 0 doubles." in words
+    low, high, low_long, high_long = numbers(
+        r'"Back soonest" takes all objects up to (\d+) to (\d+) mm/s with the short gaps, and up '
+        r"to only (\d+) to (\d+) mm/s with the long ones",
+        words,
     )
-    stream = belt_stream(0.5, 8) / 0.15
-    assert len(in_order(stream, 0.15)[0]) < 0.5 * len(one_arm(stream, 0.15)[0])
+    assert "gap = 150 * mm  # try 300 * mm" in cells("14")["belt-spread"]
+    short = quietly("14", "belt-spread")["most"]
+    assert (short[-1].min(), short[-1].max()) == (low, high)
+    with contextlib.redirect_stdout(io.StringIO()):
+        changed = [("gap = 150 * mm", "gap = 300 * mm")]
+        long = run_cells("14", "belt-spread", changed=changed)["most"]
+    assert (long[0] == 2 * short[0]).all() and high_long < 2 * low
+    assert (long[-1].min(), long[-1].max()) == (low_long, high_long)
+    for seed, most in zip((8, 9, 10), long[-1], strict=True):
+        stream = 2000 * belt_stream(1, seed)  # mm
+        assert not len(one_arm(stream / most, most / 1000)[1])
+        assert len(one_arm(stream / (most + 5), (most + 5) / 1000)[1])
 
 
 def test_first_come_needs_more_arms_as_stated():
     assert (
         "At 200 mm/s, even evenly spaced objects then need four arms instead of two, since each "
-        "arm but the last gets more objects than it can take." in flat("14", "deeper")
+        "arm but the last gets more objects than it can take." in flat("14", "belt-rules-look")
     )
     assert "first_come = False  # try True" in cells("14")["belt-arms"]
     left, count = belt_stream(0, 8) / 0.2, 0
     while len(left):
         left, count = np.array(in_order(left, 0.2)[1]), count + 1
     assert (count, arms_needed(0.2, 0, 8)) == (4, 2)
+
+
+def test_only_first_come_gives_the_fourth_arm_work(monkeypatch):
+    assert (
+        'with "back soonest" it never gets an object; with "first come" it works at every spread, '
+        "even at 0." in flat("14", "belt-several")
+    )
+    call = "conveyor_player(0.2, [0, 0.5, 1], arms=4, rules=True)"
+    assert call in cells("14")["belt-rules-player"]
+    monkeypatch.setattr("robokin.show.conveyor.animate", lambda *given, **named: (given, named))
+    (_, _, motions), named = eval(call, {"conveyor_player": conveyor_player})
+    assert named["title"] == "200 mm/s: which rule gives arm 4 work to do?"
+    moves = np.ptp(motions[3], axis=2).max(axis=-1)  # of arm 4, by rule and spread
+    assert not moves[0].any() and (moves[1] > 0.5).all()
+    (brought,) = named["quantities"].values()
+    assert not brought[3][0].any()
+    for k, spread in enumerate([0, 0.5, 1]):
+        left = belt_stream(spread, 8) / 0.2
+        for _ in range(3):
+            left = np.array(one_arm(left, 0.2)[1])
+            if not len(left):
+                break
+        assert not len(left)  # three arms take all 200
+        assert brought[3][1, k, -1] > 0, "arm 4 brings nothing in these six seconds"
 
 
 def test_rules_agree_if_the_arm_is_always_back_in_time():
