@@ -318,6 +318,15 @@ def test_right_answer_moves_the_gripper_in_the_lab_view_to_the_goal():
     exec(sources["your-turn-stub-1"], space)
     exec(sources["your-turn-player"], space)
     assert space["own_title"].startswith("Write")
+    for answer, told in (
+        (lambda point, before: np.full(3, np.nan), "Three angles put the gripper at the goal"),
+        (lambda point, before: [1, 2], "Three angles put the gripper at the goal"),
+        (lambda point, before: posture(right)(point, before) + np.ones(3), "Your posture misses"),
+        (posture(lambda x, y, b: math.atan2(y, x)), "joint 1 takes the long way"),
+    ):
+        space["next_posture"] = answer
+        exec(sources["your-turn-player"], space)
+        assert told in space["own_title"]
     space["next_posture"] = posture(right)
     exec(sources["your-turn-player"], space)
     arrived = space["own_arm"].fk(space["own_way"][-1]).translation
