@@ -5,7 +5,7 @@ all sliders at their ends. `test_fit.py` tests this for the words of whole labs.
 import numpy as np
 import pytest
 import test_player
-from canvas_words import COVERED, LINES, MOVE, NEXT, RECORD
+from canvas_words import COVERED, LINES, MOVE, NEXT, RECORD, faults
 from conftest import awake
 
 from robokin import (
@@ -21,6 +21,7 @@ from robokin import (
     linear,
     loader_arm,
     ptp,
+    quintic,
     three_lever,
     turning_base,
 )
@@ -348,3 +349,24 @@ def test_unit_on_the_right_is_beside_the_name_of_the_panel(page, tmp_path):
     assert len(names) == 1 and len(units) == 1, str([w["text"] for w in words])
     (left, _, wide, _), (begin, *_) = names[0]["box"], units[0]["box"]
     assert left + wide < begin
+
+
+@pytest.mark.parametrize("width", [*PHONE, 1366])
+def test_row_of_the_posture_is_always_named_at_the_edge(page, tmp_path, width):
+    t, names = np.linspace(0, 4, 41), ["near", "far"]
+    down = Quaternion.from_angle_axis(180 * deg, [0, 1, 0])
+    ends = [Transform(down, [[x, y, 0.2] for x in (0.35, 0.5)]) for y in (-0.35, 0.35)]
+    poses = ends[0][:, None].lerp(ends[1][:, None], quintic(4.0)(t))
+    q = follow(IRB140, IRB140.ik(poses), IRB140.branch(+1, +1, +1))
+    # one arm with a slider, and two arms side by side or one above the other
+    one = animate(IRB140, t, q, slider=("x, m", [0.35, 0.5]))
+    for view, count in ((one, 1), (animate([IRB140] * 2, t, list(q), names=names), 2)):
+        shown(page, view, tmp_path, width, "min", "x", RECORD)
+        for end in ("min", "max"):
+            page.evaluate(TO_END, [end, "x"])
+            page.evaluate(NEXT)
+            [canvas, *_] = page.evaluate("canvasWords()")
+            rows = [word for word in canvas["words"] if word["text"] == "row 0: +1 +1 +1"]
+            assert len(rows) == count
+            assert faults(page) == []
+            assert count == 2 or rows[0]["box"][1] > canvas["height"] - 22

@@ -124,17 +124,26 @@ export function sceneView(canvas, scene) {
       drawCell({g, cam, scene, space}, shown, cell, pictures.length > 1);
       return cam;
     });
-    const {grid, unit} = scene,
-      scale = `grid ${+(grid / unit.size).toPrecision(6)} ${unit.name}`;
-    g.font = font(12);
-    const wide = g.measureText(scale).width;
-    // no line goes through the scale
-    g.fillStyle = colors.paper;
-    g.fillRect(8, h - 20, wide + 4, 16);
-    write(g, scale, 10, h - 8, colors.soft, 12);
+    const {grid, unit} = scene;
+    let x = 10;
+    /** @type {(text: string, color: string, weight?: string) => void} */
+    const foot = (text, color, weight) => {
+      g.font = font(12, weight);
+      const wide = g.measureText(text).width;
+      // no line goes through the text
+      g.fillStyle = colors.paper;
+      g.fillRect(x - 2, h - 20, wide + 4, 16);
+      write(g, text, x, h - 8, color, 12, "left", weight);
+      x += wide + 16;
+    };
+    foot(`grid ${+(grid / unit.size).toPrecision(6)} ${unit.name}`, colors.soft);
     // several arms have their names at the top
-    if (pictures.length > 1) write(g, clock, 26 + wide, h - 8, colors.ink, 13, "left", "600");
-    else write(g, clock, w - 10, 18, colors.ink, 13, "right", "600");
+    if (pictures.length > 1) foot(clock, colors.ink, "600");
+    else {
+      write(g, clock, w - 10, 18, colors.ink, 13, "right", "600");
+      const [{row}] = arms;
+      if (row && arms.length === 1) foot(row, colors.ink);
+    }
     return true;
   }
 
@@ -281,15 +290,14 @@ function drawSpace(pen, arms, [x, y, w, h], named) {
   for (const kind in KINDS) KINDS[kind].above({...pen, near: first.near}, only(kind), ofThings);
   labels.push(...all.flatMap(drawFlange), ...ofThings); // a flange is drawn over its target
   const handles = first.handles?.(all[0].cam) ?? [];
-  if (named) write(g, first.name, x + 10, y + 18, colors.ink, 13, "left", "600");
+  if (named) {
+    write(g, first.name, x + 10, y + 18, colors.ink, 13, "left", "600");
+    write(g, first.row ?? "", x + w - 10, y + 18, colors.ink, 12, "right");
+  }
   if (arms.some(arm => arm.faded)) {
     const at = /** @type {Pixel} */ ([x + w / 2, y]),
       {nowhere: text = "no solution"} = first;
     labels.push({text, at, color: colors.alarm, weight: "600", away: [0, 1]});
-  }
-  if (first.row && arms.length === 1) {
-    const at = /** @type {Pixel} */ ([x + 3, y + h - 22]);
-    labels.push({text: first.row, at, color: colors.ink, away: [1, -1], near: true});
   }
   for (const {cam, labels: own = []} of all)
     for (const label of own) labels.push({weight: "600", ...label, at: cam.to(label.at)});
