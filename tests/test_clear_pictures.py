@@ -14,12 +14,14 @@ from robokin import (
     PUMA560,
     SCARA,
     Quaternion,
+    ScaraPose,
     Transform,
     deg,
     follow,
     lin,
     linear,
     loader_arm,
+    mm,
     ptp,
     quintic,
     three_lever,
@@ -31,6 +33,7 @@ from robokin.show import (
     joint_explorer,
     movement_explorer,
     paths_explorer,
+    target_explorer,
 )
 from robokin.show.palette import PAGE
 
@@ -46,12 +49,18 @@ TO_VALUES = """values => {
     slider.dispatchEvent(new Event("input", {bubbles: true}));
   }
 }"""
-# `canvas.rings`: the centres of the rings on paths in the last picture
+# `canvas.rings`: the centres of the rings on paths, and `canvas.tools`: those of the tools, in the
+# last picture
 RINGS = """{
   const pen = CanvasRenderingContext2D.prototype, {clearRect, arc} = pen;
-  pen.clearRect = function (...all) { this.canvas.rings = []; return clearRect.apply(this, all); };
+  pen.clearRect = function (...all) {
+    this.canvas.rings = [];
+    this.canvas.tools = [];
+    return clearRect.apply(this, all);
+  };
   pen.arc = function (x, y, r, ...more) {
     if (r === 4.5) this.canvas.rings.push([x, y]);
+    if (r === 3.6) this.canvas.tools.push([x, y]);
     return arc.call(this, x, y, r, ...more);
   };
 }"""
@@ -202,14 +211,19 @@ def race(joints=None):
 
 @pytest.mark.parametrize("width", [*PHONE, 1366])
 def test_line_from_a_word_to_its_point_goes_through_no_other_word(page, tmp_path, width):
-    shown(page, race(), tmp_path, width, "min", "", LINES, RECORD)
-    [lines, words] = page.evaluate(
-        "[document.querySelector('canvas').lines, canvasWords()[0].words]"
+    shown(page, race(), tmp_path, width, "min", "", LINES, RECORD, RINGS)
+    [lines, words, tools] = page.evaluate(
+        """() => {
+          const {lines, tools} = document.querySelector("canvas");
+          return [lines, canvasWords()[0].words, tools];
+        }"""
     )
     soft = PAGE["soft"][0].lower()
     leaders = [line for line in lines if line["width"] == 1 and line["color"] == soft]
     assert [word["text"] for word in words if word["text"].endswith("0.00")], "no readings"
     assert leaders or width == 324, "no word is far from its point"
+    for line in leaders:  # it ends at its point
+        assert np.linalg.norm(np.subtract(tools, line["points"][-1]), axis=-1).min() < 6.1
     for left, top, wide, high in [word["box"] for word in words if word["box"][2]]:
         for x, y in np.concatenate([along(line) for line in leaders or ()] or [[[-1, -1]]]):
             assert not (left < x < left + wide and top < y < top + high)
@@ -370,3 +384,40 @@ def test_row_of_the_posture_is_always_named_at_the_edge(page, tmp_path, width):
             assert len(rows) == count
             assert faults(page) == []
             assert count == 2 or rows[0]["box"][1] > canvas["height"] - 22
+
+
+@pytest.mark.parametrize("end", ["none", "min", "max"])
+@pytest.mark.parametrize("width", [*PHONE, 1366])
+def test_text_of_a_limit_is_next_to_the_side_of_the_zone(page, tmp_path, width, end):
+    """A line from it would end on the arm or on another side."""
+    view = target_explorer(SCARA, ScaraPose([0.25, 0, 0.2]), zone=True)
+    shown(page, view, tmp_path, width, end, "x", LINES, RECORD)
+    [lines, words] = page.evaluate(
+        "[document.querySelector('canvas').lines, canvasWords()[0].words]"
+    )
+    sides = [PAGE[f"joint{k}"][0].lower() for k in (1, 2)]
+    texts = [word for word in words if word["text"].startswith("q") and "=" in word["text"]]
+    named = {word["text"][:2] for word in texts}
+    assert named == {"q1", "q2"} if end == "none" else named
+    for word in texts:
+        own = sides[int(word["text"][1]) - 1]
+        drawn = np.concatenate(
+            [along(line) for line in lines if line["color"] == own and line["width"] == 2]
+        )
+        left, top, wide, high = word["box"]
+        nearest = np.clip(drawn, [left, top], [left + wide, top + high])
+        assert np.linalg.norm(nearest - drawn, axis=-1).min() < 19, word["text"]
+        assert not any(line["width"] == 1 and line["color"] == word["color"] for line in lines)
+
+
+@pytest.mark.parametrize("width", [*PHONE, 914])
+def test_no_part_of_a_ring_is_between_two_words(page, tmp_path, width):
+    """The red ring around a joint would look like an apostrophe: past'its limit."""
+    t, end = np.linspace(0, 1, 21), [150 * deg, 160 * deg, 410 * deg, 200 * mm]
+    view = animate(SCARA, t, ptp(np.zeros(4), np.array(end), t))
+    shown(page, view, tmp_path, width, "none", "none")
+    page.evaluate(COVERED, ["past its limit", ["alarm"]])
+    page.evaluate(TO_END, ["max", ""])
+    page.evaluate(NEXT)
+    covered = page.evaluate("covered")
+    assert len(covered) >= 3 and not any(pixels for _, pixels in covered), covered

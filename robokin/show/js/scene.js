@@ -12,6 +12,7 @@ import {
   stroke,
   tiled,
   upright,
+  wordInk,
   write,
 } from "./canvas.js";
 import {frames, origin} from "./kinematics.js";
@@ -285,11 +286,12 @@ function drawSpace(pen, arms, [x, y, w, h], named) {
       weight: "600",
     })),
   );
+  const handles = first.handles?.(all[0].cam) ?? [];
+  ink.push(...handles.map(wordInk));
   /** @type {Label[]} */
   const ofThings = [];
   for (const kind in KINDS) KINDS[kind].above({...pen, near: first.near}, only(kind), ofThings);
   labels.push(...all.flatMap(drawFlange), ...ofThings); // a flange is drawn over its target
-  const handles = first.handles?.(all[0].cam) ?? [];
   if (named) {
     write(g, first.name, x + 10, y + 18, colors.ink, 13, "left", "600");
     write(g, first.row ?? "", x + w - 10, y + 18, colors.ink, 12, "right");
@@ -301,7 +303,7 @@ function drawSpace(pen, arms, [x, y, w, h], named) {
   }
   for (const {cam, labels: own = []} of all)
     for (const label of own) labels.push({weight: "600", ...label, at: cam.to(label.at)});
-  placeLabels(g, labels, [x + 4, y + 24, w - 8, h - 46], handles);
+  placeLabels(g, labels, [x + 4, y + 24, w - 8, h - 46]);
   const [right, high] = [x + w - 34, y + 60];
   /** @type {Pixel[]} */
   const corners = [
