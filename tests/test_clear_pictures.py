@@ -27,6 +27,7 @@ from robokin import (
     three_lever,
     turning_base,
 )
+from robokin.jobs.visit_collect import Task
 from robokin.show import (
     animate,
     elbow_explorer,
@@ -34,6 +35,7 @@ from robokin.show import (
     movement_explorer,
     paths_explorer,
     target_explorer,
+    tour_explorer,
 )
 from robokin.show.palette import PAGE
 
@@ -49,18 +51,18 @@ TO_VALUES = """values => {
     slider.dispatchEvent(new Event("input", {bubbles: true}));
   }
 }"""
-# `canvas.rings`: the centres of the rings on paths, and `canvas.tools`: those of the tools, in the
-# last picture
+# `canvas.rings`: the centres of the rings on paths, and `canvas.spots`: the centres and radii of all
+# discs, in the last picture
 RINGS = """{
   const pen = CanvasRenderingContext2D.prototype, {clearRect, arc} = pen;
   pen.clearRect = function (...all) {
     this.canvas.rings = [];
-    this.canvas.tools = [];
+    this.canvas.spots = [];
     return clearRect.apply(this, all);
   };
   pen.arc = function (x, y, r, ...more) {
     if (r === 4.5) this.canvas.rings.push([x, y]);
-    if (r === 3.6) this.canvas.tools.push([x, y]);
+    this.canvas.spots.push([x, y, r]);
     return arc.call(this, x, y, r, ...more);
   };
 }"""
@@ -212,12 +214,13 @@ def race(joints=None):
 @pytest.mark.parametrize("width", [*PHONE, 1366])
 def test_line_from_a_word_to_its_point_goes_through_no_other_word(page, tmp_path, width):
     shown(page, race(), tmp_path, width, "min", "", LINES, RECORD, RINGS)
-    [lines, words, tools] = page.evaluate(
+    [lines, words, spots] = page.evaluate(
         """() => {
-          const {lines, tools} = document.querySelector("canvas");
-          return [lines, canvasWords()[0].words, tools];
+          const {lines, spots} = document.querySelector("canvas");
+          return [lines, canvasWords()[0].words, spots];
         }"""
     )
+    tools = [spot[:2] for spot in spots if spot[2] == 3.6]
     soft = PAGE["soft"][0].lower()
     leaders = [line for line in lines if line["width"] == 1 and line["color"] == soft]
     assert [word["text"] for word in words if word["text"].endswith("0.00")], "no readings"
@@ -421,3 +424,25 @@ def test_no_part_of_a_ring_is_between_two_words(page, tmp_path, width):
     page.evaluate(NEXT)
     covered = page.evaluate("covered")
     assert len(covered) >= 3 and not any(pixels for _, pixels in covered), covered
+
+
+@pytest.mark.parametrize("end", ["min", "max"])
+@pytest.mark.parametrize("width", PHONE)
+def test_ring_far_from_its_point_has_a_line_to_it(page, tmp_path, width, end):
+    points = [[2.16, 3.37, 2], [1.81, -3.56, 2], [1.45, -3.73, 2], [1.07, -3.85, 2]]
+    task = Task(5, 4, T=7.5, speeds=[0.2] * 3, p0=[4, 0, 2], points=points, kind="visit")
+    shown(page, tour_explorer(task), tmp_path, width, end, "time", RINGS)
+    ends = page.evaluate(
+        """() => [...document.querySelectorAll(".rk-led")].map(node => {
+          const [own, after] = [getComputedStyle(node), getComputedStyle(node, "::after")];
+          const [x, y] = own.transform.match(/[^,(]+/g).slice(-2).map(parseFloat);
+          const [cos, sin] = after.transform.match(/[^,(]+/g).slice(1, 3).map(parseFloat);
+          const far = parseFloat(own.getPropertyValue("--far"));
+          return [x + far * cos, y + far * sin, far, parseFloat(after.width)];
+        })"""
+    )
+    spots = [spot[:2] for spot in page.evaluate("document.querySelector('canvas').spots")]
+    assert len(ends) >= 2
+    for x, y, far, long in ends:
+        assert np.linalg.norm(np.subtract(spots, [x, y]), axis=-1).min() < 1.5
+        assert far - 14 < long < far - 9
