@@ -30,6 +30,7 @@ from robokin import (
 from robokin.jobs.visit_collect import Task
 from robokin.show import (
     animate,
+    clearance_explorer,
     elbow_explorer,
     joint_explorer,
     movement_explorer,
@@ -446,3 +447,53 @@ def test_ring_far_from_its_point_has_a_line_to_it(page, tmp_path, width, end):
     for x, y, far, long in ends:
         assert np.linalg.norm(np.subtract(spots, [x, y]), axis=-1).min() < 1.5
         assert far - 14 < long < far - 9
+
+
+@pytest.mark.parametrize("width", [*PHONE, 914])
+@pytest.mark.parametrize(
+    ("place", "vias"),
+    [
+        ((1.2, 1.3), [(1, 1.3), (1, 1.2)]),
+        ((1.4, 1.1), [(1.264, 1.055), (1.279, 1.025)]),  # almost together, and soon the moment
+    ],
+)
+def test_words_of_the_distance_curve_are_beside_the_curve_and_its_lines(
+    page, tmp_path, width, place, vias
+):
+    """The required distance hides no part of the curve; a name is next to its dotted line, and not
+    on the line of the current moment.
+    """
+    start = LEVERS.family((1.2, 1.7), 118 * deg)
+    view = clearance_explorer(LEVERS, start, (1.9, 0.3), place, vias)
+    shown(page, view, tmp_path, width, "none", "none", LINES, RECORD)
+    [lines, words] = page.evaluate(
+        "[document.querySelectorAll('canvas')[1].lines, canvasWords()[1].words]"
+    )
+    boxes = {word["text"]: word["box"] for word in words}
+    curve = np.concatenate([along(line) for line in lines if len(line["points"]) > 20])
+    left, top, wide, high = boxes["143 mm"]
+    inside = (curve > [left, top]).all(axis=-1) & (curve < [left + wide, top + high]).all(axis=-1)
+    assert len(curve) > 100 and not inside.any()
+    [now] = [
+        line["points"][0][0]
+        for line in lines
+        if line["width"] == 1.4 and line["color"] == PAGE["ink"][0].lower()
+    ]
+    for name in ("K2", "K3"):
+        left, _, wide, _ = boxes[name]
+        assert not left < now < left + wide, name
+
+
+@pytest.mark.parametrize("width", [*PHONE, 914])
+def test_disc_of_the_required_distance_is_larger_than_its_ring(page, tmp_path, width):
+    start = LEVERS.family((1.2, 1.7), 118 * deg)
+    view = clearance_explorer(LEVERS, start, (1.9, 0.3), (1.2, 1.3))
+    shown(page, view, tmp_path, width, "none", "none", RINGS)
+    ring = page.evaluate(
+        """() => {
+          const ring = getComputedStyle(document.querySelector("[data-handle=H]"), "::before");
+          return parseFloat(ring.width) / 2 + parseFloat(ring.borderTopWidth);
+        }"""
+    )
+    largest = max(r for _, _, r in page.evaluate("document.querySelector('canvas').spots"))
+    assert ring < largest - 2
