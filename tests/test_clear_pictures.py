@@ -21,18 +21,19 @@ from robokin import (
     lin,
     linear,
     loader_arm,
-    mm,
     ptp,
     quintic,
     three_lever,
     turning_base,
 )
+from robokin.jobs.steppers import Stepper
 from robokin.jobs.visit_collect import Task
 from robokin.show import (
     animate,
     clearance_explorer,
     elbow_explorer,
     joint_explorer,
+    motor_explorer,
     movement_explorer,
     paths_explorer,
     target_explorer,
@@ -497,3 +498,14 @@ def test_disc_of_the_required_distance_is_larger_than_its_ring(page, tmp_path, w
     )
     largest = max(r for _, _, r in page.evaluate("document.querySelector('canvas').spots"))
     assert ring < largest - 2
+
+
+@pytest.mark.parametrize("width", [*PHONE, 914])
+@pytest.mark.parametrize("pulses", [10, 60, 333])
+def test_lost_steps_are_written_beside_the_curves(page, tmp_path, width, pulses):
+    shown(page, motor_explorer(Stepper(rise=0)), tmp_path, width, "none", "none")
+    page.evaluate(COVERED, [" lost", ["accent", "soft"]])
+    page.evaluate(TO_VALUES, {"frequency": pulses})
+    page.evaluate(NEXT)
+    covered = page.evaluate("covered")
+    assert covered and not any(pixels for _, pixels in covered), covered
