@@ -21,6 +21,7 @@ from robokin import (
     lin,
     linear,
     loader_arm,
+    mm,
     ptp,
     quintic,
     three_lever,
@@ -53,8 +54,8 @@ TO_VALUES = """values => {
     slider.dispatchEvent(new Event("input", {bubbles: true}));
   }
 }"""
-# `canvas.rings`: the centres of the rings on paths, and `canvas.spots`: the centres and radii of all
-# discs, in the last picture
+# `canvas.rings`: the centres of the rings on paths, and `canvas.spots`: the centres and radii of
+# all discs, in the last picture
 RINGS = """{
   const pen = CanvasRenderingContext2D.prototype, {clearRect, arc} = pen;
   pen.clearRect = function (...all) {
@@ -435,19 +436,18 @@ def test_ring_far_from_its_point_has_a_line_to_it(page, tmp_path, width, end):
     task = Task(5, 4, T=7.5, speeds=[0.2] * 3, p0=[4, 0, 2], points=points, kind="visit")
     shown(page, tour_explorer(task), tmp_path, width, end, "time", RINGS)
     ends = page.evaluate(
-        """() => [...document.querySelectorAll(".rk-led")].map(node => {
+        """() => [...document.querySelectorAll(".rk-handle")].flatMap(node => {
           const [own, after] = [getComputedStyle(node), getComputedStyle(node, "::after")];
           const [x, y] = own.transform.match(/[^,(]+/g).slice(-2).map(parseFloat);
-          const [cos, sin] = after.transform.match(/[^,(]+/g).slice(1, 3).map(parseFloat);
-          const far = parseFloat(own.getPropertyValue("--far"));
-          return [x + far * cos, y + far * sin, far, parseFloat(after.width)];
+          const [, a, b, , , e, f] = after.transform.match(/[^,(]+/g).map(parseFloat);
+          return Math.hypot(a, b) < 1 ? [] : [[x + e + a, y + f + b, Math.hypot(e, f)]];
         })"""
     )
     spots = [spot[:2] for spot in page.evaluate("document.querySelector('canvas').spots")]
     assert len(ends) >= 2
-    for x, y, far, long in ends:
+    for x, y, begin in ends:
         assert np.linalg.norm(np.subtract(spots, [x, y]), axis=-1).min() < 1.5
-        assert far - 14 < long < far - 9
+        assert 12 < begin < 14, "the line begins in the ring"
 
 
 @pytest.mark.parametrize("width", [*PHONE, 914])

@@ -201,14 +201,11 @@ function placed(handle, camera, taken, [width, height], big) {
   const seen = place[0] > 0 && place[0] < width && place[1] > 0 && place[1] < height;
   node.classList.toggle("rk-outside", !seen);
   node.style.transform = `translate(${left.toFixed(1)}px, ${top.toFixed(1)}px)`;
-  // a line leads to the place if the button is too far from it
+  // a line leads to the place from a button that is too far from it
   const [dx, dy] = [place[0] - left, place[1] - top],
-    far = seen ? Math.hypot(dx, dy) : 0;
-  node.classList.toggle("rk-led", far > LED);
-  if (far > LED) {
-    node.style.setProperty("--far", `${far.toFixed(1)}px`);
-    node.style.setProperty("--way", `${Math.atan2(dy, dx).toFixed(3)}rad`);
-  }
+    far = Math.hypot(dx, dy),
+    turn = `rotate(${Math.atan2(dy, dx)}rad) translate(13px)`;
+  node.style.setProperty("--led", `${turn} scaleX(${seen && far > LED ? far - 13 : 0})`);
   const says = `${name}, ${value()}`;
   if (node.getAttribute("aria-label") !== says) node.setAttribute("aria-label", says);
   return /** @type {Pixel} */ ([x, y]);

@@ -125,26 +125,12 @@ export function sceneView(canvas, scene) {
       drawCell({g, cam, scene, space}, shown, cell, pictures.length > 1);
       return cam;
     });
-    const {grid, unit} = scene;
-    let x = 10;
-    /** @type {(text: string, color: string, weight?: string) => void} */
-    const foot = (text, color, weight) => {
-      g.font = font(12, weight);
-      const wide = g.measureText(text).width;
-      // no line goes through the text
-      g.fillStyle = colors.paper;
-      g.fillRect(x - 2, h - 20, wide + 4, 16);
-      write(g, text, x, h - 8, color, 12, "left", weight);
-      x += wide + 16;
-    };
-    foot(`grid ${+(grid / unit.size).toPrecision(6)} ${unit.name}`, colors.soft);
-    // several arms have their names at the top
-    if (pictures.length > 1) foot(clock, colors.ink, "600");
-    else {
-      write(g, clock, w - 10, 18, colors.ink, 13, "right", "600");
-      const [{row}] = arms;
-      if (row && arms.length === 1) foot(row, colors.ink);
-    }
+    const {grid, unit} = scene,
+      scale = `grid ${+(grid / unit.size).toPrecision(6)} ${unit.name}`,
+      many = pictures.length > 1;
+    // several pictures have names and rows at the top
+    writeFoot(g, h, scale, many ? clock : arms.length > 1 ? "" : arms[0].row);
+    if (!many) write(g, clock, w - 10, 18, colors.ink, 13, "right", "600");
     return true;
   }
 
@@ -166,6 +152,20 @@ export function sceneView(canvas, scene) {
       held = on;
     },
   };
+}
+
+/**
+ * Writes the scale and another text at the lower edge. No line goes through them.
+ * @type {(g: Context, h: number, scale: string, text?: string) => void}
+ */
+function writeFoot(g, h, scale, text = "") {
+  g.font = font(12);
+  const [wide, more] = [scale, text].map(each => g.measureText(each).width);
+  g.fillStyle = colors.paper;
+  g.fillRect(8, h - 20, wide + 4, 16);
+  if (text) g.fillRect(24 + wide, h - 20, more + 4, 16);
+  write(g, scale, 10, h - 8, colors.soft);
+  write(g, text, 26 + wide, h - 8);
 }
 
 /**
@@ -286,8 +286,7 @@ function drawSpace(pen, arms, [x, y, w, h], named) {
       weight: "600",
     })),
   );
-  const handles = first.handles?.(all[0].cam) ?? [];
-  ink.push(...handles.map(wordInk));
+  ink.push(...(first.handles?.(all[0].cam) ?? []).map(wordInk));
   /** @type {Label[]} */
   const ofThings = [];
   for (const kind in KINDS) KINDS[kind].above({...pen, near: first.near}, only(kind), ofThings);
