@@ -5,7 +5,7 @@ all sliders at their ends. `test_fit.py` tests this for the words of whole labs.
 import numpy as np
 import pytest
 import test_player
-from canvas_words import COVERED, LINES, MOVE, NEXT, RECORD
+from canvas_words import COVERED, LINES, MOVE, NEXT, RECORD, faults
 from conftest import awake
 
 from robokin import (
@@ -14,22 +14,31 @@ from robokin import (
     PUMA560,
     SCARA,
     Quaternion,
+    ScaraPose,
     Transform,
     deg,
     follow,
     lin,
     linear,
     loader_arm,
+    mm,
     ptp,
+    quintic,
     three_lever,
     turning_base,
 )
+from robokin.jobs.steppers import Stepper
+from robokin.jobs.visit_collect import Task
 from robokin.show import (
     animate,
+    clearance_explorer,
     elbow_explorer,
     joint_explorer,
+    motor_explorer,
     movement_explorer,
     paths_explorer,
+    target_explorer,
+    tour_explorer,
 )
 from robokin.show.palette import PAGE
 
@@ -45,12 +54,18 @@ TO_VALUES = """values => {
     slider.dispatchEvent(new Event("input", {bubbles: true}));
   }
 }"""
-# `canvas.rings`: the centres of the rings on paths in the last picture
+# `canvas.rings`: the centres of the rings on paths, and `canvas.spots`: the centres and radii of
+# all discs, in the last picture
 RINGS = """{
   const pen = CanvasRenderingContext2D.prototype, {clearRect, arc} = pen;
-  pen.clearRect = function (...all) { this.canvas.rings = []; return clearRect.apply(this, all); };
+  pen.clearRect = function (...all) {
+    this.canvas.rings = [];
+    this.canvas.spots = [];
+    return clearRect.apply(this, all);
+  };
   pen.arc = function (x, y, r, ...more) {
     if (r === 4.5) this.canvas.rings.push([x, y]);
+    this.canvas.spots.push([x, y, r]);
     return arc.call(this, x, y, r, ...more);
   };
 }"""
@@ -201,14 +216,20 @@ def race(joints=None):
 
 @pytest.mark.parametrize("width", [*PHONE, 1366])
 def test_line_from_a_word_to_its_point_goes_through_no_other_word(page, tmp_path, width):
-    shown(page, race(), tmp_path, width, "min", "", LINES, RECORD)
-    [lines, words] = page.evaluate(
-        "[document.querySelector('canvas').lines, canvasWords()[0].words]"
+    shown(page, race(), tmp_path, width, "min", "", LINES, RECORD, RINGS)
+    [lines, words, spots] = page.evaluate(
+        """() => {
+          const {lines, spots} = document.querySelector("canvas");
+          return [lines, canvasWords()[0].words, spots];
+        }"""
     )
+    tools = [spot[:2] for spot in spots if spot[2] == 3.6]
     soft = PAGE["soft"][0].lower()
     leaders = [line for line in lines if line["width"] == 1 and line["color"] == soft]
     assert [word["text"] for word in words if word["text"].endswith("0.00")], "no readings"
     assert leaders or width == 324, "no word is far from its point"
+    for line in leaders:  # it ends at its point
+        assert np.linalg.norm(np.subtract(tools, line["points"][-1]), axis=-1).min() < 6.1
     for left, top, wide, high in [word["box"] for word in words if word["box"][2]]:
         for x, y in np.concatenate([along(line) for line in leaders or ()] or [[[-1, -1]]]):
             assert not (left < x < left + wide and top < y < top + high)
@@ -348,3 +369,143 @@ def test_unit_on_the_right_is_beside_the_name_of_the_panel(page, tmp_path):
     assert len(names) == 1 and len(units) == 1, str([w["text"] for w in words])
     (left, _, wide, _), (begin, *_) = names[0]["box"], units[0]["box"]
     assert left + wide < begin
+
+
+@pytest.mark.parametrize("width", [*PHONE, 1366])
+def test_row_of_the_posture_is_always_named_at_the_edge(page, tmp_path, width):
+    t, names = np.linspace(0, 4, 41), ["near", "far"]
+    down = Quaternion.from_angle_axis(180 * deg, [0, 1, 0])
+    ends = [Transform(down, [[x, y, 0.2] for x in (0.35, 0.5)]) for y in (-0.35, 0.35)]
+    poses = ends[0][:, None].lerp(ends[1][:, None], quintic(4.0)(t))
+    q = follow(IRB140, IRB140.ik(poses), IRB140.branch(+1, +1, +1))
+    # one arm with a slider, and two arms side by side or one above the other
+    one = animate(IRB140, t, q, slider=("x, m", [0.35, 0.5]))
+    for view, count in ((one, 1), (animate([IRB140] * 2, t, list(q), names=names), 2)):
+        shown(page, view, tmp_path, width, "min", "x", RECORD)
+        for end in ("min", "max"):
+            page.evaluate(TO_END, [end, "x"])
+            page.evaluate(NEXT)
+            [canvas, *_] = page.evaluate("canvasWords()")
+            rows = [word for word in canvas["words"] if word["text"] == "row 0: +1 +1 +1"]
+            assert len(rows) == count
+            assert faults(page) == []
+            assert count == 2 or rows[0]["box"][1] > canvas["height"] - 22
+
+
+@pytest.mark.parametrize("end", ["none", "min", "max"])
+@pytest.mark.parametrize("width", [*PHONE, 1366])
+def test_text_of_a_limit_is_next_to_the_side_of_the_zone(page, tmp_path, width, end):
+    """A line from it would end on the arm or on another side."""
+    view = target_explorer(SCARA, ScaraPose([0.25, 0, 0.2]), zone=True)
+    shown(page, view, tmp_path, width, end, "x", LINES, RECORD)
+    [lines, words] = page.evaluate(
+        "[document.querySelector('canvas').lines, canvasWords()[0].words]"
+    )
+    sides = [PAGE[f"joint{k}"][0].lower() for k in (1, 2)]
+    texts = [word for word in words if word["text"].startswith("q") and "=" in word["text"]]
+    named = {word["text"][:2] for word in texts}
+    assert named == {"q1", "q2"} if end == "none" else named
+    for word in texts:
+        own = sides[int(word["text"][1]) - 1]
+        drawn = np.concatenate(
+            [along(line) for line in lines if line["color"] == own and line["width"] == 2]
+        )
+        left, top, wide, high = word["box"]
+        nearest = np.clip(drawn, [left, top], [left + wide, top + high])
+        assert np.linalg.norm(nearest - drawn, axis=-1).min() < 19, word["text"]
+        assert not any(line["width"] == 1 and line["color"] == word["color"] for line in lines)
+
+
+@pytest.mark.parametrize("width", [*PHONE, 914])
+def test_no_part_of_a_ring_is_between_two_words(page, tmp_path, width):
+    """The red ring around a joint would look like an apostrophe: past'its limit."""
+    t, end = np.linspace(0, 1, 21), [150 * deg, 160 * deg, 410 * deg, 200 * mm]
+    view = animate(SCARA, t, ptp(np.zeros(4), np.array(end), t))
+    shown(page, view, tmp_path, width, "none", "none")
+    page.evaluate(COVERED, ["past its limit", ["alarm"]])
+    page.evaluate(TO_END, ["max", ""])
+    page.evaluate(NEXT)
+    covered = page.evaluate("covered")
+    assert len(covered) >= 3 and not any(pixels for _, pixels in covered), covered
+
+
+@pytest.mark.parametrize("end", ["min", "max"])
+@pytest.mark.parametrize("width", PHONE)
+def test_ring_far_from_its_point_has_a_line_to_it(page, tmp_path, width, end):
+    points = [[2.16, 3.37, 2], [1.81, -3.56, 2], [1.45, -3.73, 2], [1.07, -3.85, 2]]
+    task = Task(5, 4, T=7.5, speeds=[0.2] * 3, p0=[4, 0, 2], points=points, kind="visit")
+    shown(page, tour_explorer(task), tmp_path, width, end, "time", RINGS)
+    ends = page.evaluate(
+        """() => [...document.querySelectorAll(".rk-handle")].flatMap(node => {
+          const [own, after] = [getComputedStyle(node), getComputedStyle(node, "::after")];
+          const [x, y] = own.transform.match(/[^,(]+/g).slice(-2).map(parseFloat);
+          const [, a, b, , , e, f] = after.transform.match(/[^,(]+/g).map(parseFloat);
+          return Math.hypot(a, b) < 1 ? [] : [[x + e + a, y + f + b, Math.hypot(e, f)]];
+        })"""
+    )
+    spots = [spot[:2] for spot in page.evaluate("document.querySelector('canvas').spots")]
+    assert len(ends) >= 2
+    for x, y, begin in ends:
+        assert np.linalg.norm(np.subtract(spots, [x, y]), axis=-1).min() < 1.5
+        assert 12 < begin < 14, "the line begins in the ring"
+
+
+@pytest.mark.parametrize("width", [*PHONE, 914])
+@pytest.mark.parametrize(
+    ("place", "vias"),
+    [
+        ((1.2, 1.3), [(1, 1.3), (1, 1.2)]),
+        ((1.4, 1.1), [(1.264, 1.055), (1.279, 1.025)]),  # almost together, and soon the moment
+    ],
+)
+def test_words_of_the_distance_curve_are_beside_the_curve_and_its_lines(
+    page, tmp_path, width, place, vias
+):
+    """The required distance hides no part of the curve; a name is next to its dotted line, and not
+    on the line of the current moment.
+    """
+    start = LEVERS.family((1.2, 1.7), 118 * deg)
+    view = clearance_explorer(LEVERS, start, (1.9, 0.3), place, vias)
+    shown(page, view, tmp_path, width, "none", "none", LINES, RECORD)
+    [lines, words] = page.evaluate(
+        "[document.querySelectorAll('canvas')[1].lines, canvasWords()[1].words]"
+    )
+    boxes = {word["text"]: word["box"] for word in words}
+    curve = np.concatenate([along(line) for line in lines if len(line["points"]) > 20])
+    left, top, wide, high = boxes["143 mm"]
+    inside = (curve > [left, top]).all(axis=-1) & (curve < [left + wide, top + high]).all(axis=-1)
+    assert len(curve) > 100 and not inside.any()
+    [now] = [
+        line["points"][0][0]
+        for line in lines
+        if line["width"] == 1.4 and line["color"] == PAGE["ink"][0].lower()
+    ]
+    for name in ("K2", "K3"):
+        left, _, wide, _ = boxes[name]
+        assert not left < now < left + wide, name
+
+
+@pytest.mark.parametrize("width", [*PHONE, 914])
+def test_disc_of_the_required_distance_is_larger_than_its_ring(page, tmp_path, width):
+    start = LEVERS.family((1.2, 1.7), 118 * deg)
+    view = clearance_explorer(LEVERS, start, (1.9, 0.3), (1.2, 1.3))
+    shown(page, view, tmp_path, width, "none", "none", RINGS)
+    ring = page.evaluate(
+        """() => {
+          const ring = getComputedStyle(document.querySelector("[data-handle=H]"), "::before");
+          return parseFloat(ring.width) / 2 + parseFloat(ring.borderTopWidth);
+        }"""
+    )
+    largest = max(r for _, _, r in page.evaluate("document.querySelector('canvas').spots"))
+    assert ring < largest - 2
+
+
+@pytest.mark.parametrize("width", [*PHONE, 914])
+@pytest.mark.parametrize("pulses", [10, 60, 333])
+def test_lost_steps_are_written_beside_the_curves(page, tmp_path, width, pulses):
+    shown(page, motor_explorer(Stepper(rise=0)), tmp_path, width, "none", "none")
+    page.evaluate(COVERED, [" lost", ["accent", "soft"]])
+    page.evaluate(TO_VALUES, {"frequency": pulses})
+    page.evaluate(NEXT)
+    covered = page.evaluate("covered")
+    assert covered and not any(pixels for _, pixels in covered), covered

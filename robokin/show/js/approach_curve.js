@@ -13,6 +13,7 @@ import {
   upright,
   write,
 } from "./canvas.js";
+import {placeLabels} from "./labels.js";
 import {scale} from "./ticks.js";
 
 /** @import {Context, Pixel} from "./canvas.js" */
@@ -86,10 +87,10 @@ export function drawApproach(canvas, words, shown) {
     1.4,
   );
   drawVias(plot, shown);
-  drawWanted(plot, shown);
   upright(g, x(now.share), top, bottom, colors.ink, 1.4);
   spot(g, [x(now.share), y(now.distance)], 4.5, colors.accent);
   drawLeast(plot, least);
+  drawWanted(plot, wanted);
   return {shareAt: px => (px - left) / (right - left)};
 }
 
@@ -171,42 +172,34 @@ function drawAxes({g, left, right, top, bottom, x, y}, [low, step, count, decima
 }
 
 /**
- * Draws a dotted line where the gripper is at a via point, and writes its name above it, at the
- * right of the name before it.
+ * Draws a dotted line where the gripper is at a via point, and writes its name above it. Names that
+ * would overlap make room on the side away from the current moment, whose line has no name.
  * @param {Plot} plot
  * @param {Shown} shown
  */
-function drawVias({g, top, bottom, x}, {motion: {ends}, vias}) {
+function drawVias({g, top, bottom, x}, {motion: {ends}, vias, now}) {
+  const places = vias.map((_, k) => x(ends[k + 1])),
+    side = x(now.share) > places[places.length - 1] ? -1 : 1;
   let before = -Infinity;
-  vias.forEach((name, k) => {
-    const px = x(ends[k + 1]);
-    upright(g, px, top, bottom, colors.soft, 1.2, [2, 3]);
-    before = Math.max(before + 22, px);
-    write(g, name, before, top - 4, colors.soft, 11, "center");
-  });
+  for (const k of side > 0 ? vias.keys() : [...vias.keys()].reverse()) {
+    upright(g, places[k], top, bottom, colors.soft, 1.2, [2, 3]);
+    before = Math.max(before + 22, side * places[k]);
+    write(g, vias[k], side * before, top - 4, colors.soft, 11, "center");
+  }
 }
 
 /**
- * Writes the required distance above its line, at the end where the curve is farther away.
+ * Writes the required distance next to its line, where there is most room.
  * @param {Plot} plot
- * @param {Shown} shown
+ * @param {number} wanted
  */
-function drawWanted({g, left, right, y}, {levers, wanted}) {
-  const count = Math.ceil(levers.length / 4);
-  /** @type {(values: number[]) => number} */
-  const room = values => Math.min(...values.map(value => Math.abs(value - wanted)));
-  const first = room(levers.slice(0, count)) > room(levers.slice(-count)),
-    text = `${number(inMm(wanted), 0)} mm`;
-  write(
-    g,
-    text,
-    first ? left + 4 : right - 4,
-    y(wanted) - 5,
-    colors.alarm,
-    11,
-    first ? "left" : "right",
-    "600",
+function drawWanted({g, left, right, top, bottom, y}, wanted) {
+  const along = [0, 1, 2, 3, 4, 5, 6].map(
+    /** @returns {Pixel} */ k => [left + 24 + (k / 6) * (right - left - 48), y(wanted)],
   );
+  const text = `${number(inMm(wanted), 0)} mm`,
+    look = {color: colors.alarm, weight: "600", near: true};
+  placeLabels(g, [{text, at: along[0], along, ...look}], [left, top, right - left, bottom - top]);
 }
 
 /**

@@ -77,6 +77,9 @@ export const font = (size, weight = "") => `${weight} ${size}px ${family}`;
 /** The colour of a joint. @param {number} j from 0 */
 export const jointColor = j => colors[/** @type {Color} */ (`joint${(j % 6) + 1}`)];
 
+/** A joint's colour, changed so that text in it is readable. @type {(color: string) => string} */
+export const shade = color => `color-mix(in srgb, ${color} 60%, ${colors.ink})`;
+
 /**
  * A translucent colour.
  * @param {string} color

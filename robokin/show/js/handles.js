@@ -201,12 +201,18 @@ function placed(handle, camera, taken, [width, height], big) {
   const seen = place[0] > 0 && place[0] < width && place[1] > 0 && place[1] < height;
   node.classList.toggle("rk-outside", !seen);
   node.style.transform = `translate(${left.toFixed(1)}px, ${top.toFixed(1)}px)`;
+  // a line leads to the place from a button that is too far from it
+  const [dx, dy] = [place[0] - left, place[1] - top],
+    far = Math.hypot(dx, dy),
+    turn = `rotate(${Math.atan2(dy, dx)}rad) translate(13px)`;
+  node.style.setProperty("--led", `${turn} scaleX(${seen && far > LED ? far - 13 : 0})`);
   const says = `${name}, ${value()}`;
   if (node.getAttribute("aria-label") !== says) node.setAttribute("aria-label", says);
   return /** @type {Pixel} */ ([x, y]);
 }
 
 const SCALE_ROOM = 20; // px: the scale of the grid stands below all handles
+const LED = 16; // px: a button this far from its place has a line to it
 const TAP = 4; // px: a pointer movement shorter than this counts as a tap
 /** @type {Object<string, [number, number]>} */
 const STEPS = {ArrowLeft: [-1, 0], ArrowRight: [1, 0], ArrowUp: [0, 1], ArrowDown: [0, -1]};

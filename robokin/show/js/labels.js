@@ -1,7 +1,7 @@
 // Words on a canvas: each label takes the first free place around its point, so that it hides
 // nothing that is drawn there.
 
-import {WORD, font, ink, stroke, wordInk, write} from "./canvas.js";
+import {WORD, colors, font, ink, stroke, wordInk, write} from "./canvas.js";
 
 /** @import {Box, Context, Ink, Pixel} from "./canvas.js" */
 
@@ -9,6 +9,7 @@ import {WORD, font, ink, stroke, wordInk, write} from "./canvas.js";
  * @typedef {object} Label
  * @property {string} text
  * @property {Pixel} at  its point
+ * @property {Pixel[]} [along]  the points of its line; it names the one with the least ink near it
  * @property {string} color
  * @property {string} [weight]
  * @property {Pixel} [away]  the preferred direction from its point; without it, the label prefers
@@ -25,7 +26,7 @@ const GAPS = [5, 14, 26, 40, 58, 84], // px between a point and its label
   HIGH = 16, // px: the height of a label
   REACH = 40, // px: the directions of the base, and letters beside them, are this near their centre
   CROSSED = 8, // the cost of a line that goes through words: less than to cover a link
-  TIP = 2 * TURNS, // the number of places close enough to the end of a line
+  TIP = 2 * TURNS, // the number of places of a label with `tip` or `near`
   MOST = 40, // the cost above which a label with `near` is left out
   TIPS = 12; // the same for a label with `tip`
 
@@ -42,17 +43,18 @@ export function placeLabels(g, labels, [left, top, width, height], handles = [])
   /** @type {Dot[]} */
   const dots = [];
   let marked = 0; // the number of lines in `ink` whose dots are known
-  for (const {text, at, color, weight, away, near, tip} of labels) {
+  for (const {text, at, along, color, weight, away, near, tip} of labels) {
     while (marked < ink.length) mark(dots, ink[marked++]);
     g.font = font(12, weight);
     const wide = g.measureText(text).width + 4,
       [ax, ay] = away ?? [0.5, -0.5],
-      [px, py] = [between(at[0], left, width), between(at[1], top, height)],
+      [x, y] = along ? freest(along) : at,
+      [px, py] = [between(x, left, width), between(y, top, height)],
       close = dots.filter(
         ({x, y, r}) => Math.abs(x - px) < wide + r + 90 && Math.abs(y - py) < r + 110,
       );
     let [least, bestX, bestY, place] = [Infinity, 0, 0, 0];
-    for (let k = 0; k < (tip ? TIP : near ? NEAR : GAPS.length * TURNS); k++) {
+    for (let k = 0; k < (tip || near ? TIP : GAPS.length * TURNS); k++) {
       const gap = GAPS[Math.floor(k / TURNS)],
         turn = (2 * Math.PI * k) / TURNS,
         [c, s] = [Math.cos(turn), -Math.sin(turn)],
@@ -74,17 +76,22 @@ export function placeLabels(g, labels, [left, top, width, height], handles = [])
     }
     if (least > (tip ? TIPS : near ? MOST : Infinity)) continue;
     if (place >= NEAR && !away) {
-      const [dx, dy] = line(px, py, bestX, bestY, wide);
-      // the line does not reach the dot at the point
+      const [dx, dy] = line(px, py, bestX, bestY, wide),
+        gap = 6 / Math.hypot(dx, dy); // the line does not reach the dot at the point
       stroke(
         g,
         [
           [px + dx, py + dy],
-          [px + dx / 5, py + dy / 5],
+          [px + gap * dx, py + gap * dy],
         ],
         color,
         1,
       );
+    }
+    if (color === colors.alarm) {
+      // else the red ring of a joint would show between two words
+      g.fillStyle = colors.paper;
+      g.fillRect(bestX, bestY, wide, HIGH - 1);
     }
     write(g, text, bestX + 2, bestY + 12, color, 12, "left", weight);
   }

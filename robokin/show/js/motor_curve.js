@@ -3,6 +3,7 @@
 import {fill} from "./blanks.js";
 import {lastOf} from "./bench.js";
 import {colors, number, prepared, stroke, upright, write} from "./canvas.js";
+import {placeLabels} from "./labels.js";
 import {stepOf} from "./rotor.js";
 
 /** @import {PageMotors} from "./page.js" */
@@ -85,14 +86,14 @@ function drawLines({g, left, right}, y, values) {
 }
 
 /**
- * Writes the names at the ends of both lines, and the lost steps between them.
+ * Writes the names at the ends of both lines, and the lost steps between or beside them.
  * @param {Panel} panel
  * @param {PageMotors["words"]} says
  * @param {Place} y
  * @param {number} sent
  * @param {number} made
  */
-function tellEnds({g, right, top, bottom}, says, y, sent, made) {
+function tellEnds({g, left, right, top, bottom}, says, y, sent, made) {
   /** @type {[number, number]} */
   const ends = [y(sent), y(made)];
   const close = Math.abs(ends[0] - ends[1]) < 13;
@@ -100,11 +101,17 @@ function tellEnds({g, right, top, bottom}, says, y, sent, made) {
   write(g, says.made, right + 4, ends[1] + (close ? 11 : 4), colors.accent, 11);
   const lost = Math.round(Math.abs(sent - made));
   if (lost) upright(g, right - 6, ...ends, colors.alarm, 1.6);
-  // if there is no room between the ends, below or above both
-  const under = ends[0] < (top + bottom) / 2,
-    free = under ? Math.max(...ends) + 18 : Math.min(...ends) - 12,
-    wide = Math.abs(ends[0] - ends[1]) > 24,
-    at = wide ? (ends[0] + ends[1]) / 2 + 4 : free,
-    color = lost ? colors.alarm : colors.soft;
-  write(g, fill(says.gap, {lost}), right - 10, at, color, 12, "right", "600");
+  placeLabels(
+    g,
+    [
+      {
+        text: fill(says.gap, {lost}),
+        at: [right - 6, (ends[0] + ends[1]) / 2],
+        color: lost ? colors.alarm : colors.soft,
+        weight: "600",
+        away: [-1, 0],
+      },
+    ],
+    [left, top, right - left, bottom - top],
+  );
 }

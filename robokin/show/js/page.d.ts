@@ -38,6 +38,7 @@ export interface PageFaces {
 
 export interface ZoneSide {
   joint: number | null;
+  text: string;
   dash: number[];
   points: number[][];
 }
@@ -45,7 +46,6 @@ export interface ZoneSide {
 export interface PageZone {
   kind: "zone";
   elbows: ZoneSide[][];
-  labels: [string, number[]][];
 }
 
 export interface PageReading {

@@ -8,12 +8,13 @@ import {
   level,
   number,
   polygon,
+  shade,
   spot,
   stroke,
   upright,
   write,
 } from "./canvas.js";
-import {lineColor, panelWords, shade} from "./panel_words.js";
+import {lineColor, panelWords} from "./panel_words.js";
 
 /** @import {Box, Context, Pixel} from "./canvas.js" */
 /** @import {Scale} from "./page.js" */

@@ -1,6 +1,6 @@
 // Labels for the marks and limits of a panel of curves, placed where they hide the curves least.
 
-import {colors, font, hit, jointColor, number} from "./canvas.js";
+import {colors, font, hit, jointColor, number, shade} from "./canvas.js";
 
 /** @import {Box, Context} from "./canvas.js" */
 /** @import {Line, Mark, Note, Panel, Place, Sides, Times} from "./panel.js" */
@@ -10,9 +10,6 @@ const MOST = 16, // pixels of curves: no text covers so many
 
 /** The colour of a line. @type {(line: Line) => string} */
 export const lineColor = ({joint}) => (joint < 0 ? colors.ink : jointColor(joint));
-
-/** A joint's colour, changed so that text in it is readable. @type {(color: string) => string} */
-export const shade = color => `color-mix(in srgb, ${color} 60%, ${colors.ink})`;
 
 /**
  * The text of a panel. It is placed once for each size and theme, and not again at every redraw.

@@ -12,6 +12,7 @@ import {
   stroke,
   tiled,
   upright,
+  wordInk,
   write,
 } from "./canvas.js";
 import {frames, origin} from "./kinematics.js";
@@ -125,16 +126,11 @@ export function sceneView(canvas, scene) {
       return cam;
     });
     const {grid, unit} = scene,
-      scale = `grid ${+(grid / unit.size).toPrecision(6)} ${unit.name}`;
-    g.font = font(12);
-    const wide = g.measureText(scale).width;
-    // no line goes through the scale
-    g.fillStyle = colors.paper;
-    g.fillRect(8, h - 20, wide + 4, 16);
-    write(g, scale, 10, h - 8, colors.soft, 12);
-    // several arms have their names at the top
-    if (pictures.length > 1) write(g, clock, 26 + wide, h - 8, colors.ink, 13, "left", "600");
-    else write(g, clock, w - 10, 18, colors.ink, 13, "right", "600");
+      scale = `grid ${+(grid / unit.size).toPrecision(6)} ${unit.name}`,
+      many = pictures.length > 1;
+    // several pictures have names and rows at the top
+    writeFoot(g, h, scale, many ? clock : arms.length > 1 ? "" : arms[0].row);
+    if (!many) write(g, clock, w - 10, 18, colors.ink, 13, "right", "600");
     return true;
   }
 
@@ -156,6 +152,20 @@ export function sceneView(canvas, scene) {
       held = on;
     },
   };
+}
+
+/**
+ * Writes the scale and another text at the lower edge. No line goes through them.
+ * @type {(g: Context, h: number, scale: string, text?: string) => void}
+ */
+function writeFoot(g, h, scale, text = "") {
+  g.font = font(12);
+  const [wide, more] = [scale, text].map(each => g.measureText(each).width);
+  g.fillStyle = colors.paper;
+  g.fillRect(8, h - 20, wide + 4, 16);
+  if (text) g.fillRect(24 + wide, h - 20, more + 4, 16);
+  write(g, scale, 10, h - 8, colors.soft);
+  write(g, text, 26 + wide, h - 8);
 }
 
 /**
@@ -276,24 +286,23 @@ function drawSpace(pen, arms, [x, y, w, h], named) {
       weight: "600",
     })),
   );
+  ink.push(...(first.handles?.(all[0].cam) ?? []).map(wordInk));
   /** @type {Label[]} */
   const ofThings = [];
   for (const kind in KINDS) KINDS[kind].above({...pen, near: first.near}, only(kind), ofThings);
   labels.push(...all.flatMap(drawFlange), ...ofThings); // a flange is drawn over its target
-  const handles = first.handles?.(all[0].cam) ?? [];
-  if (named) write(g, first.name, x + 10, y + 18, colors.ink, 13, "left", "600");
+  if (named) {
+    write(g, first.name, x + 10, y + 18, colors.ink, 13, "left", "600");
+    write(g, first.row ?? "", x + w - 10, y + 18, colors.ink, 12, "right");
+  }
   if (arms.some(arm => arm.faded)) {
     const at = /** @type {Pixel} */ ([x + w / 2, y]),
       {nowhere: text = "no solution"} = first;
     labels.push({text, at, color: colors.alarm, weight: "600", away: [0, 1]});
   }
-  if (first.row && arms.length === 1) {
-    const at = /** @type {Pixel} */ ([x + 3, y + h - 22]);
-    labels.push({text: first.row, at, color: colors.ink, away: [1, -1], near: true});
-  }
   for (const {cam, labels: own = []} of all)
     for (const label of own) labels.push({weight: "600", ...label, at: cam.to(label.at)});
-  placeLabels(g, labels, [x + 4, y + 24, w - 8, h - 46], handles);
+  placeLabels(g, labels, [x + 4, y + 24, w - 8, h - 46]);
   const [right, high] = [x + w - 34, y + 60];
   /** @type {Pixel[]} */
   const corners = [

@@ -1,6 +1,6 @@
 // The zone of a SCARA, seen from above. Its data are defined in things/zone.py.
 
-import {clear, colors, jointColor, polygon, stroke} from "./canvas.js";
+import {clear, colors, jointColor, polygon, shade, stroke} from "./canvas.js";
 
 /** @import {PageZone} from "./page.js" */
 /** @import {Kind} from "./scene.js" */
@@ -19,8 +19,12 @@ export const zone = {
     for (const {joint, dash, points} of found.flat())
       stroke(g, points.map(to), joint === null ? colors.soft : jointColor(joint), 2, dash);
   },
+  /** Names each side where it is free, and only next to it: it is next to other sides, too. */
   above({cam: {to}}, zones, labels) {
-    for (const [text, at] of zones.flatMap(({labels: own}) => own))
-      labels.push({text, at: to(at), color: colors.ink});
+    for (const {text, joint, points} of zones.flatMap(({elbows}) => elbows.flat())) {
+      const along = points.filter((_, k) => k % 4 === 1).map(to),
+        color = shade(jointColor(joint ?? 0));
+      if (text) labels.push({text, at: along[0], along, color, near: true});
+    }
   },
 };

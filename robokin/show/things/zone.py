@@ -26,20 +26,21 @@ MINUS = "\N{MINUS SIGN}"
 
 class ZoneSide(TypedDict):
     """A side of a zone: the index of the joint that is at its limit there, or None if the arm is
-    stretched or folded there; the dashes of its line in pixels; and its points (x, y, z).
+    stretched or folded there; its text, or ""; the dashes of its line in pixels; and its points
+    (x, y, z).
     """
 
     joint: int | None
+    text: str
     dash: list[float]
     points: list[list[float]]
 
 
 class PageZone(TypedDict):
-    """The sides of the zone of each elbow, in order, and labels with their positions (x, y, z)."""
+    """The sides of the zone of each elbow, in order."""
 
     kind: Literal["zone"]
     elbows: list[list[ZoneSide]]
-    labels: list[tuple[str, list[float]]]
 
 
 @dataclass(frozen=True, init=False, eq=False)
@@ -51,7 +52,7 @@ class Zone(Thing):
 
     sides   the sides of the area of each elbow, in order: the index of the joint at its limit, or
             None if the arm is stretched or folded; and points (k, 3)
-    labels  texts with their positions (3,)
+    labels  texts with their positions (3,), which are points of the sides that they name
     """
 
     sides: tuple[tuple[tuple[int | None, Floats], ...], ...]
@@ -85,12 +86,26 @@ class Zone(Thing):
     def page(self, kept: Ints | None) -> PageZone:
         return {
             "kind": "zone",
-            "elbows": [[_side(joint, points) for joint, points in around] for around in self.sides],
-            "labels": [(text, rounded(at, 4)) for text, at in self.labels],
+            "elbows": [[self._side(*side) for side in around] for around in self.sides],
         }
 
     def seen(self, axis: float) -> Floats:
         return np.concatenate([np.empty((0, 3)), *(p for around in self.sides for _, p in around)])
+
+    def _side(self, joint: int | None, points: Floats) -> ZoneSide:
+        dash = () if joint is None else JOINT_STYLES[joint]["dash"]
+        name = None if joint is None else f"q{joint + 1}"
+        own = (
+            text
+            for text, at in self.labels
+            if text.split(" ")[0] == name and (points == at).all(axis=-1).any()
+        )
+        return {
+            "joint": joint,
+            "text": next(own, ""),
+            "dash": [WIDTH * x for x in dash],
+            "points": [rounded(point, 4) for point in points],
+        }
 
     def draw(self, scene: "Scene", sample: int | None) -> None:
         for around in self.sides:
@@ -113,12 +128,3 @@ def _between(arm: ClosedFormArm, start: Floats, end: Floats) -> Floats:
     count = int(np.ceil(abs(end - start).max() / STEP)) + 1
     q = np.concatenate([np.linspace(start, end, count), np.zeros((count, 2))], axis=-1)
     return frozen(arm.fk(q).translation * [1, 1, 0])
-
-
-def _side(joint: int | None, points: Floats) -> ZoneSide:
-    dash = () if joint is None else JOINT_STYLES[joint]["dash"]
-    return {
-        "joint": joint,
-        "dash": [WIDTH * x for x in dash],
-        "points": [rounded(point, 4) for point in points],
-    }
