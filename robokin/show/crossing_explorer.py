@@ -23,8 +23,8 @@ DIVISORS = "x3", "y3"
 TRACKS = (
     "The outer, solid line is the track of the right elbow, and the inner, dashed line is that of "
     "the left elbow, while the tip moves along the dotted line. (Both tracks are on the circle of "
-    "radius l1 around the base; they are drawn beside it.) A ring marks a place where the two elbows "
-    "meet."
+    "radius l1 around the base; they are drawn beside it.) A ring marks a place where the two "
+    "elbows meet."
 )
 BAND = (
     "The grey band shows which of them the formula returns, and the black dot is that elbow now. "
@@ -44,15 +44,15 @@ SAYS = {
     "returns": "The formula returns the {elbow}.",
     "jumps": "Along the dotted line, it jumps by {jump} {unit} at {line}.",
     "one": "Along the dotted line, it does not jump: the two elbows are one at {line}.",
-    "keeps": "Along the dotted line, it does not jump at {line}: on both sides, the formula returns "
-    "the elbow with the greater {kept}.",
+    "keeps": "Along the dotted line, it does not jump at {line}: on both sides, the formula "
+    "returns the elbow with the greater {kept}.",
     "stays": "The dotted line does not cross {line} within reach, so the formula does not jump.",
     "nothing": "At {line}, the formula divides 0 by 0 and returns no number, although the tip "
     "is in reach.",
     "stretched": "The arm is stretched: both elbows coincide.",
     "folded": "The arm is folded: both elbows coincide.",
-    "onBase": "The tip is on the base: the arm is folded, and every point of the circle around the "
-    "base is an elbow. The view shows one of them.",
+    "onBase": "The tip is on the base: the arm is folded, and every point of the circle around "
+    "the base is an elbow. The view shows one of them.",
     "tooFar": "Out of reach: the tip is {gap} beyond the reach of the arm.",
     "tooNear": "Out of reach: the tip is {gap} too close to the base.",
 }
