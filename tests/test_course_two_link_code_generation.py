@@ -68,6 +68,14 @@ SLIPS = {
     "the direction from tip to base": {"dx": f"{BX} - x3", "dy": f"{BY} - y3"},
     "the base added to the tip": {"dx": f"x3 + {BX}", "dy": f"y3 + {BY}"},
     "the base left out of dx and dy": {"dx": "x3", "dy": "y3"},
+    "the sign of the base": {
+        "dx": f"x3 + {BX}",
+        "dy": f"y3 + {BY}",
+        "px": f"a*dx - {BX}",
+        "py": f"a*dy - {BY}",
+    },
+    "the sign of base_x": {"dx": f"x3 + {BX}", "px": f"a*dx - {BX}"},
+    "the sign of base_y": {"dy": f"y3 + {BY}", "py": f"a*dy - {BY}"},
     "base_x and base_y swapped": {"dx": f"x3 - {BY}", "dy": f"y3 - {BX}"},
     "1/2 instead of a in the foot": {"px": f"{BX} + 0.5*dx", "py": f"{BY} + 0.5*dy"},
     "no a in the foot": {"px": f"{BX} + dx", "py": f"{BY} + dy"},
@@ -120,8 +128,8 @@ def test_known_mistakes_and_nearly_correct_programs_are_named():
         ),
         (
             lambda d, a, b: abs(a - b) - 1e-9 <= d <= a + b + 1e-9,
-            None,
-        ),  # an absolute tolerance passes, even for a small arm
+            "a margin of the same length for every arm",
+        ),
     ],
 )
 def test_slightly_wrong_limit_of_reach_is_detected(reach, name):
@@ -135,6 +143,31 @@ def test_slightly_wrong_limit_of_reach_is_detected(reach, name):
         return base + a * np.array([dx, dy]) + h * np.array([dy, -dx])
 
     assert check("two_link_code_generation.1", elbow).mistake == name
+
+
+@pytest.mark.parametrize("sign", [1, -1])
+@pytest.mark.parametrize("checks", ["", "side 0", "reach", "reach, rim", "side 0, reach, rim"])
+def test_formula_of_section_3_with_the_side_as_the_sign_of_the_root_is_recognised(sign, checks):
+    """Where it divides by 0, rounding decides between NaN and infinity."""
+
+    def elbow(base, tip, l1, l2, side):
+        dx, dy = np.subtract(tip, base)
+        d2 = dx * dx + dy * dy
+        c = (d2 + l1**2 - l2**2) / 2
+        room = 1e-9 * (l1 + l2)
+        reached = abs(l1 - l2) - room <= np.sqrt(d2) <= l1 + l2 + room
+        if "reach" in checks and not reached and (side or "side 0" not in checks):
+            return [np.nan, np.nan]
+        under = dx**2 * (l1**2 * d2 - c**2)
+        under = max(under, 0) if "rim" in checks else under
+        with np.errstate(all="ignore"):
+            root = 0 if side == 0 and "side 0" in checks else side * np.sqrt(under)
+            y = (dy * c + sign * root) / d2
+            return [base[0] + (c - dy * y) / dx, base[1] + y]
+
+    mistake = check("two_link_code_generation.1", elbow).mistake
+    other = "" if sign > 0 else "other "
+    assert mistake == f"divides by dx, and takes the side from the {other}sign of the root"
 
 
 def test_elbows_of_the_package_do_not_give_the_point_between_them_out_of_reach():

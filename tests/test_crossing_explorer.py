@@ -180,6 +180,53 @@ def test_singular_and_unreachable_tips_are_explained(opened):
     )
 
 
+@pytest.mark.parametrize("divisor, kept", [("x3", "y2"), ("y3", "x2")])
+@pytest.mark.parametrize("base", [(0, 0), (0.2, -0.1)])
+def test_formula_keeps_its_elbow_on_a_line_through_the_base(opened, base, divisor, kept):
+    """With equal links, the two elbows beside the base are two link lengths apart. The formula
+    keeps one of them on such a line, and on every other line it jumps from one to the other.
+    """
+    k, value = ("x3", "y3").index(divisor), np.array(base)[("x3", "y3").index(divisor)]
+    beside = np.add(base, [(-1e-6, 0), (1e-6, 0)] if k == 0 else [(0, -1e-6), (0, 1e-6)])
+    pairs = [crossed(base, tip, 1, 1) for tip in beside]
+    assert all(np.hypot(*(one - two)) > 1.99 for one, two in pairs)
+    formula = [pair[pair[:, 1 - k].argmax()] for pair in pairs]  # with the plus sign of the root
+    assert formula[0] == pytest.approx(formula[1], abs=1e-5)
+    start = np.add(base, (0.9, 0.6))
+    shown = opened(crossing_explorer(two_link(1, 1, base), start, divisor=divisor))
+    line = f"{divisor} = {value:g}".replace("-", "\N{MINUS SIGN}")
+    keeps = (
+        f"Along the dotted line, it does not jump at {line}: on both sides, the formula returns "
+        f"the elbow with the greater {kept}."
+    )
+    tip = np.add(base, (0.5, 0) if k == 0 else (0, 0.5))
+    seen = moved(shown, *tip)
+    assert re.search(r"^The formula returns the (right|left) elbow\. ", seen.says)
+    assert seen.says.endswith(keeps) and "are one" not in seen.says
+    beside_line = moved(shown, *np.add(tip, (0, 0.01) if k == 0 else (0.01, 0))).says
+    assert beside_line.endswith(f"it jumps by 2.000 m at {line}.")
+    says = moved(shown, *base).says
+    assert says.startswith(
+        "The tip is on the base: the arm is folded, and every point of the circle around the base "
+        "is an elbow. The view shows one of them."
+    )
+    assert "coincide" not in says and says.endswith(keeps)
+
+
+def test_tip_on_the_base_has_no_two_elbows(opened):
+    shown = opened(crossing_explorer(two_link(1, 1), (0.5, 0.5)))
+    seen = moved(shown, 0, 0)
+    assert seen.says.startswith("The tip is on the base") and "coincide" not in seen.says
+    assert "ight elbow at" not in seen.scene and "both elbows" not in seen.words[0]
+    assert "one of the elbows" in seen.words[0]
+
+
+def test_legend_explains_rings_and_red_dashes():
+    assert "A ring marks a place where the two elbows meet." in FIRST.data["meant"]
+    assert "The red dashes go from one end of the jump to the other." in FIRST.data["meant"]
+    assert "red" not in crossing_explorer(two_link(1, 1), (0.6, 0.8)).data["meant"]
+
+
 def test_accessible_name_describes_the_picture(opened):
     seen = opened(FIRST).look()
     assert seen.scene.startswith(repr(FIRST)) and seen.scene.endswith(seen.says)

@@ -20,7 +20,7 @@ from test_true_statements_b import (
 from test_true_statements_b import run as run_cells
 from test_true_statements_c import flat, mistakes, numbers, shown, view
 
-from robokin import deg, loader_arm, mm
+from robokin import deg, loader_arm, mm, two_link
 from robokin.course import book
 from robokin.jobs.obstacles import plan, via_path, way_round
 from robokin.jobs.steppers import Stepper, ramp, shortest_turn, station_postures, straight
@@ -371,3 +371,87 @@ def test_elbow_distances_link_ratio_and_lost_digits_are_as_stated():
     below = 1e-20
     y2 = (y3 + np.sqrt(below**2 * (4 - 1))) / 2
     assert below > 0 == y3**2 - 2 * y3 * y2, "the numerator is 0 and the denominator is not"
+
+
+def test_jump_of_both_angles_at_the_smallest_radius_is_as_stated():
+    pytest.importorskip("sympy")
+    made = run_cells("12", "derive-line", "derive-check", "sides-setup", "sides-player")
+    q = np.degrees(made["angles"](made["by_line"], made["tip_arcs"])[made["radii"] == 0.5][0])
+    jumps = np.flatnonzero(abs(np.diff(q[:, 1])) > 90)
+    assert len(jumps) == 2
+    told = flat("12", "sides-drag")
+    line, low, high, turn = numbers(
+        r"the red line says (\S+)°, from (\S+)° to (\S+)°; the shorter turn is (\S+)°", told
+    )
+    (first,) = numbers(r"\$q_1\$ jumps, too, by (\S+)°\.", told)
+    for k in jumps:
+        change = np.diff(q[k : k + 2], axis=0)[0]
+        assert abs(change[1]) == pytest.approx(line, abs=0.06)
+        assert sorted(q[k : k + 2, 1]) == pytest.approx([low, high], abs=0.06)
+        assert 360 - abs(change[1]) == pytest.approx(turn, abs=0.06)
+        around = (change[0] + 180) % 360 - 180
+        assert abs(around) == pytest.approx(first, abs=0.2)  # the tip moves between two samples
+    # row 0 of two_link is the right elbow, row 1 the left one
+    tip = np.array([0.6, 0.8])
+    rows = made["arm"].ik(tip)
+    elbows = made["arm"].frames(rows)[..., 1].translation[:, :2]
+    sides = tip[0] * elbows[:, 1] - tip[1] * elbows[:, 0]
+    assert sides[0] < 0 < sides[1] and "row 0: right elbow" in cells("12")["sides-player"]
+
+
+def test_quadratic_formula_in_terms_of_a_and_h_holds_for_any_lengths():
+    told = cells("12")["elimination-look"]
+    assert r"y_2 = a\,y_3 + |x_3|\,h, \qquad x_2 = a\,x_3 - \frac{|x_3|}{x_3}\,h\,y_3." in told
+    assert r"With $a = \frac12$ and $h \ge 0$ of section 2" in told
+    made = run_cells("12", "sides-setup")
+    setup = {"np": np}
+    exec(cells("12")["casts-player"].partition("\n\n\n")[0], setup)
+    for one, two in ((1.0, 1.0), (1.0, 0.7), (0.4, 0.9)):
+        for angle in np.arange(0.1, 6.2, 0.3):
+            d = 0.5 * (abs(one - two) + one + two)
+            x3, y3 = d * np.cos(angle), d * np.sin(angle)
+            a = (d**2 + one**2 - two**2) / (2 * d**2)
+            h = np.sqrt(one**2 / d**2 - a**2)
+            elbow = np.array([a * x3 - abs(x3) / x3 * h * y3, a * y3 + abs(x3) * h])
+            assert np.hypot(*elbow) == pytest.approx(one)
+            assert np.hypot(*(elbow - [x3, y3])) == pytest.approx(two)
+            assert (elbow[1] - a * y3 > 0) and (x3 * elbow[1] - y3 * elbow[0] > 0) == (x3 > 0)
+            if one == two:
+                assert a == 0.5 and made["elbow_by_root"](x3, y3, one) == pytest.approx(elbow)
+                assert setup["listing"](x3, y3, one, float) == pytest.approx(elbow[0])
+
+
+def test_single_precision_is_as_accurate_as_stated_and_worse_nearer_to_the_rim():
+    *rows, inside, rim = shown("12", "carry-code").strip().split("\n")
+    small, large = (numbers(r"off by up to (\S+) µm", each)[0] for each in (inside, rim))
+    assert "50 mm inside the reach" in inside and "1 mm inside the rim" in rim
+    assert 0 < small < large < 10, "a robot repeats a position to some micrometres"
+    assert "nearer to the rim the error grows" in flat("12", "carry-look")
+    base, around = np.array([0.2, -0.1]), 2 * np.pi * np.arange(1000) / 1000
+    greatest = []
+    for gap in (1e-3, 1e-4, 1e-5, 1e-6):
+        found = {}
+        for real in (np.float32, np.float64):
+            tips = base[:, None] + (1.7 - gap) * np.stack([np.cos(around), np.sin(around)])
+            dx, dy = tips.astype(real) - base.astype(real)[:, None]
+            d2 = dx**2 + dy**2
+            a = (d2 + real(1) ** 2 - real(0.7) ** 2) / (2 * d2)
+            h = np.sqrt(np.maximum(real(1) / d2 - a**2, 0))
+            found[real] = np.array([a * dx + h * dy, a * dy - h * dx], dtype=float)
+        greatest.append(np.hypot(*(found[np.float32] - found[np.float64])).max())
+    assert greatest == sorted(greatest) and greatest[-1] > 50e-6
+
+
+def test_task_on_the_scara_has_the_stated_answer():
+    told = flat("12", "carry-look")
+    l1, l2 = numbers(r"\$l_1 = (\S+)\$ m and \$l_2 = (\S+)\$ m", told)
+    x, y, to_x, to_y = numbers(r"from \((\S+), (\S+)\) m to \((\S+), (\S+)\) m", told)
+    (jump,) = numbers(r"By (\S+) m: at \$x_3 = 0\$, \$d\$ is 0\.4 m", told)
+    assert (to_x, to_y) == (-x, y) and y == 0.4
+    first, second = two_link(l1, l2).frames(two_link(l1, l2).ik((0, y)))[..., 1].translation
+    assert np.hypot(*(first - second)[:2]) == pytest.approx(jump, abs=5e-4)
+    ends = two_link(l1, l2).ik(np.stack([np.linspace(-x, x, 99), np.full(99, y)], axis=-1))
+    assert np.isfinite(ends).all(), "the whole line should be in reach"
+    steps = dict(re.findall(r"^(t\d+) = (.*)$", shown("12", "count-code"), re.M))
+    assert steps["t8"] == "sqrt(t1/t5 - t7**2/t6**2)"
+    assert "t8 := SQRT(t1 / t5 - t7 * t7 / (t6 * t6));" in told

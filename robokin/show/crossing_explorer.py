@@ -23,13 +23,19 @@ DIVISORS = "x3", "y3"
 TRACKS = (
     "The outer, solid line is the track of the right elbow, and the inner, dashed line is that of "
     "the left elbow, while the tip moves along the dotted line. (Both tracks are on the circle of "
-    "radius l1 around the base; they are drawn beside it.)"
+    "radius l1 around the base; they are drawn beside it.) A ring marks a place where the two "
+    "elbows meet."
+)
+BAND = (
+    "The grey band shows which of them the formula returns, and the black dot is that elbow now. "
+    "The red dashes go from one end of the jump to the other."
 )
 SAYS = {
     **{key: WORDS[key] for key in ("copy", "copied", "none")},
     "take": "tip",
     "returned": "{elbow}: formula",
     "both": "both elbows",
+    "any": "one of the elbows",
     "line": "{letter} = {value}",
     "seen": "Tip at x3 {x}, y3 {y} {unit}.",
     "elbow": "{elbow} at ({x}, {y}) {unit}.",
@@ -38,11 +44,15 @@ SAYS = {
     "returns": "The formula returns the {elbow}.",
     "jumps": "Along the dotted line, it jumps by {jump} {unit} at {line}.",
     "one": "Along the dotted line, it does not jump: the two elbows are one at {line}.",
+    "keeps": "Along the dotted line, it does not jump at {line}: on both sides, the formula "
+    "returns the elbow with the greater {kept}.",
     "stays": "The dotted line does not cross {line} within reach, so the formula does not jump.",
     "nothing": "At {line}, the formula divides 0 by 0 and returns no number, although the tip "
     "is in reach.",
     "stretched": "The arm is stretched: both elbows coincide.",
     "folded": "The arm is folded: both elbows coincide.",
+    "onBase": "The tip is on the base: the arm is folded, and every point of the circle around "
+    "the base is an elbow. The view shows one of them.",
     "tooFar": "Out of reach: the tip is {gap} beyond the reach of the arm.",
     "tooNear": "Out of reach: the tip is {gap} too close to the base.",
 }
@@ -95,12 +105,13 @@ def crossing_explorer(
         rows,
         near=around,
         meant=f"Drag the ring at the tip, or move the sliders. {TRACKS}"
-        + ("" if k is None else " The grey band shows which of them the formula returns."),
+        + ("" if k is None else f" {BAND}"),
         code=f"{imports(arm)}\narm.ik(np.array([{{x}}, {{y}}]){' * mm' if unit == 'mm' else ''})",
     )
     corners = base + most * np.array([[-1, -1], [1, -1], [1, 1], [-1, 1]])
     page["scene"] |= {"grows": False, "seen": [rounded([*corner, 0], 4) for corner in corners]}
-    page["words"] = SAYS
+    kept, eliminated = ("x2", "y2") if k else ("y2", "x2")
+    page["words"] = {**SAYS, "keeps": SAYS["keeps"].replace("{kept}", kept)}
     given: PageUnit = {"name": unit, "size": size, "code": unit}
     data: CrossingPage = {
         "kind": "crossing",
@@ -108,7 +119,7 @@ def crossing_explorer(
         "unit": given,
         "tip": place.tolist(),
         "divisor": k,
-        "eliminated": ("x2", "y2")[k or 0],
+        "eliminated": eliminated,
         "rows": [*SIDES, "formula"][: 2 if k is None else 3],
         "heads": ["", f"x2, {unit}", f"y2, {unit}"],
     }

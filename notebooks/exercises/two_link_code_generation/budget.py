@@ -226,6 +226,12 @@ dx = x3 − base_x.
   the base left out of dx: dx = x3
 dy = y3 − base_y.
   the base left out of dy: dy = y3
+You used the base with the wrong sign. {WAY}; at the end, add base_x and base_y.
+  the sign of the base: dx = x3 + base_x; dy = y3 + base_y; px = a*dx - base_x; py = a*dy - base_y
+You used base_x with the wrong sign: dx = x3 − base_x and px = base_x + a dx.
+  the sign of base_x: dx = x3 + base_x; px = a*dx - base_x
+You used base_y with the wrong sign: dy = y3 − base_y and py = base_y + a dy.
+  the sign of base_y: dy = y3 + base_y; py = a*dy - base_y
 {WAY}.
   base_x and base_y swapped: dx = x3 - base_y; dy = y3 - base_x
 px = base_x + a dx and py = base_y + a dy: go from the base along the line to the tip.

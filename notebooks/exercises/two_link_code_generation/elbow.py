@@ -30,7 +30,9 @@ class Place:
 
     @property
     def found(self) -> bool:
-        """Whether it is a point."""
+        """Whether it is a point. Where one exists, infinity (1 / 0) is as wrong as NaN (0 / 0)."""
+        if self.exists:
+            return math.isfinite(self.x) and math.isfinite(self.y)
         return not math.isnan(self.x)
 
     def __array__(self, dtype: Any = None, copy: bool | None = None) -> Any:

@@ -74,6 +74,15 @@ export const movedTo = ({geometry: {base}}, tip, k, u) =>
   tip.map((x, i) => (i === k ? base[k] + u : x));
 
 /**
+ * Returns whether the tip is on the base. There, with equal links, every point of the circle around
+ * the base is an elbow.
+ * @param {TwoLinkArm} arm
+ * @param {Point} tip
+ */
+export const onBase = ({geometry: {base, reach}}, tip) =>
+  distance(tip, [...base, 0]) < TINY * reach;
+
+/**
  * Returns the least and the greatest distance, along coordinate k, of the tip from the base.
  * @param {TwoLinkArm} arm
  * @param {Point} tip

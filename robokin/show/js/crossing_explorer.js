@@ -5,7 +5,7 @@
 import {fill, inWords} from "./blanks.js";
 import {number} from "./canvas.js";
 import {copyButton} from "./copy.js";
-import {byRoot, elbowsAt, movedTo, nearest, rangeOf, tracksAt} from "./crossing.js";
+import {byRoot, elbowsAt, movedTo, nearest, onBase, rangeOf, tracksAt} from "./crossing.js";
 import {drawCurves} from "./crossing_curve.js";
 import {lineOf, named, posed} from "./crossing_picture.js";
 import {scrubbing} from "./controls.js";
@@ -41,8 +41,8 @@ export const explore = (id, data) =>
 
 /**
  * Everything that the view shows: the rows of `ik`, the elbows, their tracks, the places where they
- * meet, the elbow that the formula returns and its index (-1 for none), and both elbows where the
- * line through the tip crosses the zero of the divisor.
+ * meet, the elbow that the formula returns and its index (-1 for none), both elbows where the line
+ * through the tip crosses the zero of the divisor, and whether the tip is on the base.
  * @param {CrossingExplorer} data
  * @param {State} state
  */
@@ -69,6 +69,7 @@ function foundAt({arm, divisor}, {tip}) {
     formula,
     which: nearest(elbows, formula),
     crossing: divisor === null ? [] : elbowsAt(arm, movedTo(arm, tip, k, 0)),
+    based: onBase(arm, tip),
   };
 }
 
@@ -139,10 +140,10 @@ const inUnit = ({unit, controls: [{decimals}]}, x) => number(x / unit.size, deci
  * @param {CrossingExplorer} data
  * @param {Found} found
  */
-function cells(data, {elbows, formula}) {
+function cells(data, {elbows, formula, based}) {
   const {none} = data.words;
   return data.rows.map((_, k) => {
-    const at = k < 2 ? elbows[k] : formula;
+    const at = k === 2 ? formula : !based && elbows[k];
     return at ? at.slice(0, 2).map(x => inUnit(data, x)) : [none, none];
   });
 }
@@ -153,11 +154,11 @@ function cells(data, {elbows, formula}) {
  * @param {State} state
  * @param {Found} found
  */
-function seen(data, {tip}, {elbows, meets}) {
+function seen(data, {tip}, {elbows, meets, based}) {
   const {words, rows, unit} = data;
   /** @type {(at: Point) => {x: string, y: string, unit: string}} */
   const facts = at => ({x: inUnit(data, at[0]), y: inUnit(data, at[1]), unit: unit.name});
-  const said = elbows.map((at, k) =>
+  const said = (based ? [] : elbows).map((at, k) =>
     fill(words.elbow, {...facts(at), elbow: rows[k][0].toUpperCase() + rows[k].slice(1)}),
   );
   return [
@@ -174,7 +175,7 @@ function seen(data, {tip}, {elbows, meets}) {
  * @param {State} state
  * @param {Found} found
  */
-function told(data, {tip}, {rows: postures, which, crossing}) {
+function told(data, {tip}, {rows: postures, which, crossing, based}) {
   const {arm, words, rows, divisor, unit} = data,
     says = [];
   if (!postures.length) {
@@ -183,14 +184,16 @@ function told(data, {tip}, {rows: postures, which, crossing}) {
       gap: inWords(gap.metres),
     });
   }
-  if (singularities(arm, postures[0]).elbow)
+  if (based) says.push(words.onBase);
+  else if (singularities(arm, postures[0]).elbow)
     says.push(Math.cos(postures[0][1]) > 0 ? words.stretched : words.folded);
   if (divisor === null) return says.join(" ");
   const line = fill(words.line, lineOf(data));
   if (which < 0) says.push(fill(words.nothing, {line}));
   else if (!says.length) says.push(fill(words.returns, {elbow: rows[which]}));
   const apart = crossing.length ? distance(crossing[0], crossing[1]) : 0,
-    still = crossing.length ? words.one : words.stays,
+    through = onBase(arm, movedTo(arm, tip, divisor, 0)),
+    still = !crossing.length ? words.stays : through ? words.keeps : words.one,
     jump = inUnit(data, apart);
   says.push(
     fill(apart > SAME * arm.geometry.reach ? words.jumps : still, {jump, unit: unit.name, line}),

@@ -21,13 +21,15 @@ const RAIL = 6; // px: the distance of a drawn track from the circle
  * @param {State} state
  * @param {Found} found
  */
-export function named({rows, words, arm}, {tip}, {rows: q, elbows, which}) {
+export function named({rows, words, arm}, {tip}, {rows: q, elbows, which, based}) {
   const one = q.length && singularities(arm, q[0]).elbow;
   const names = elbows.map((_, k) =>
     k === which ? fill(words.returned, {elbow: rows[k]}) : rows[k],
   );
   return [
-    ...(one ? [point(words.both, elbows[0])] : elbows.map((at, k) => point(names[k], at))),
+    ...(one
+      ? [point(based ? words.any : words.both, elbows[0])]
+      : elbows.map((at, k) => point(names[k], at))),
     point(words.take, tip),
   ];
 }
