@@ -228,4 +228,4 @@ def p8() -> dict[str, Any]:
     if abs(zero - one) < 1e-6 * one:
         right = "past a limit" if over > 0 else "inside as well"
     bend = abs(both[0][:, 4]).min()
-    return {"right": right, "one": one, "by": over / deg, "bend": bend / deg}
+    return {"right": right, "one": np.ceil(one), "by": over / deg, "bend": bend / deg}
