@@ -231,7 +231,7 @@ def test_arrow_keys_reach_the_slider_and_not_the_notebook(jupyter, page):
     )
 
 
-def test_shift_enter_runs_the_next_cell_from_a_control_as_from_the_cell(jupyter, page):
+def test_shift_enter_and_ctrl_s_work_from_a_control_as_from_a_cell(jupyter, page):
     jupyter.open(page, "00_start_here.ipynb")
     jupyter.run_all(page, "00_start_here.ipynb")
     page.locator(PLAYER).first.wait_for()
@@ -252,6 +252,10 @@ def test_shift_enter_runs_the_next_cell_from_a_control_as_from_the_cell(jupyter,
         cell = page.evaluate(active)
         node.press("ArrowRight")
         assert page.evaluate(active) == cell, f"{control}: an arrow left the cell"
+        unsaved = page.locator(".jp-mod-dirty")
+        until(lambda: unsaved.count() > 0, "there is nothing to save", page)
+        node.press("Control+s")
+        until(lambda: unsaved.count() == 0, f"{control}: Ctrl+S does not save", page)
         node.press("Shift+Enter")
         until(
             lambda cell=cell: page.evaluate(active) == cell + 1,

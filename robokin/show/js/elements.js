@@ -32,7 +32,7 @@ export function element(tag, attributes = {}, ...children) {
 
 /**
  * An input element. JupyterLab handles arrow keys and Space itself unless the focused element
- * forbids it. Shift+Enter runs the cell, as it does in the rest of the notebook.
+ * forbids it. Shift+Enter and Ctrl+S do what they do in the rest of the notebook.
  * @template {keyof HTMLElementTagNameMap} T
  * @param {T} tag
  * @param {Attributes} attributes
@@ -43,8 +43,10 @@ export function control(tag, attributes, ...children) {
   const forbids = "data-lm-suppress-shortcuts",
     node = element(tag, {[forbids]: "true", ...attributes}, ...children);
   node.addEventListener("keydown", event => {
-    if (!event.isTrusted || !event.shiftKey || event.key !== "Enter") return;
-    event.preventDefault(); // a button would be pressed
+    const {key, shiftKey, ctrlKey, metaKey} = event;
+    const passes = shiftKey ? key === "Enter" : (ctrlKey || metaKey) && key === "s";
+    if (!event.isTrusted || !passes) return;
+    event.preventDefault(); // a button would be pressed, or the browser would save the page
     node.removeAttribute(forbids);
     node.dispatchEvent(new KeyboardEvent("keydown", event));
     node.setAttribute(forbids, "true");
