@@ -240,7 +240,7 @@ def test_shift_enter_and_ctrl_s_work_from_a_control_as_from_a_cell(jupyter, page
         "() => [...document.querySelectorAll('.jp-Cell')].findIndex(cell => "
         "cell.matches('.jp-mod-active'))"
     )
-    view = page.locator(PLAYER).first
+    view, unsaved = page.locator(PLAYER).first, page.locator(".jp-mod-dirty")
     for control in ("[data-handle]", "button"):
         awake(page)  # the first Shift+Enter makes the view again
         view.scroll_into_view_if_needed()
@@ -252,7 +252,6 @@ def test_shift_enter_and_ctrl_s_work_from_a_control_as_from_a_cell(jupyter, page
         cell = page.evaluate(active)
         node.press("ArrowRight")
         assert page.evaluate(active) == cell, f"{control}: an arrow left the cell"
-        unsaved = page.locator(".jp-mod-dirty")
         until(lambda: unsaved.count() > 0, "there is nothing to save", page)
         node.press("Control+s")
         until(lambda: unsaved.count() == 0, f"{control}: Ctrl+S does not save", page)

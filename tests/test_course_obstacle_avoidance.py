@@ -3,14 +3,15 @@ tasks can be solved.
 """
 
 import re
-from functools import cache
+from functools import cache, partial
+from itertools import product
 
 import numpy as np
 import pytest
 from matplotlib.path import Path as Outline
 
 from robokin import deg, three_lever
-from robokin.course import book, check, variant
+from robokin.course import book, check, hint, variant
 from robokin.jobs.obstacles import along, clearance, way_round
 
 arm = three_lever(1.0)
@@ -172,10 +173,17 @@ def test_mistakes_in_point_in_polygon_tests_are_named(wrong, named):
     assert not verdict.holds and verdict.mistake == named
 
 
-@pytest.mark.parametrize("who", ["Ada", "Jonas"])
-def test_paths_known_from_the_lab_do_not_get_past_the_bar(who):
+def _own(who):
+    """The task of `who`, with its start, and a function that returns points along the bar."""
     task = variant("obstacle_avoidance", who)
     start = np.array([task[name] for name in ("gamma", "beta", "alpha")])
+    first, last = np.array(task["bar"])
+    return task, start, lambda count: first + np.linspace(0, 1, count)[:, None] * (last - first)
+
+
+@pytest.mark.parametrize("who", ["Ada", "Jonas"])
+def test_paths_known_from_the_lab_do_not_get_past_the_bar(who):
+    task, start, points = _own(who)
     end = arm.least(task["target"], start)[0]
     paths = {
         "direct": [start, end],
@@ -185,40 +193,112 @@ def test_paths_known_from_the_lab_do_not_get_past_the_bar(who):
         "round both ends": way_round(arm, start, task["target"], task["bar"], task["distance"]),
     }
     assert paths["round both ends"] is not None
-    for name, path in paths.items():
-        if path is not None:
-            verdict = check("obstacle_avoidance.2", path, who=who)
-            assert not verdict.holds and verdict.mistake, name
-    assert "degrees" in check("obstacle_avoidance.2", paths["degrees"], who=who).mistake
-    assert check("obstacle_avoidance.2", paths["back"], who=who).mistake == "another start"
+    verdicts = {
+        name: check("obstacle_avoidance.2", (path, points(20)), who=who)
+        for name, path in paths.items()
+        if path is not None
+    }
+    for name, verdict in verdicts.items():
+        assert not verdict.holds and verdict.mistake, name
+    assert "degrees" in verdicts["degrees"].mistake
+    assert verdicts["back"].mistake == "another start"
     # the ends of the path keep the distance, but postures between them do not
-    verdict = check("obstacle_avoidance.2", paths["round both ends"], who=who)
-    assert "between its ends" in verdict.mistake
+    assert "between its ends" in verdicts["round both ends"].mistake
 
 
 @pytest.mark.parametrize("who", ["Ada", "Jonas", "your name"])
 def test_paths_around_closely_spaced_points_get_past_the_bar(who):
     """The statement in the hint about points at a distance h from each other is also true."""
-    task = variant("obstacle_avoidance", who)
-    start = np.array([task[name] for name in ("gamma", "beta", "alpha")])
-    first, last = np.array(task["bar"])
+    task, start, along_the_bar = _own(who)
+    fine = along_the_bar(400)
     for count in (10, 16):
-        points = first + np.linspace(0, 1, count)[:, None] * (last - first)
+        points = along_the_bar(count)
         asked = np.hypot(task["distance"], np.hypot(*(points[1] - points[0])) / 2)
         path = way_round(arm, start, task["target"], points, asked)
-        fine = first + np.linspace(0, 1, 400)[:, None] * (last - first)
         assert clearance(arm, path, fine).min() >= task["distance"] - 1e-6
-        assert check("obstacle_avoidance.2", path, who=who).holds
+        assert check("obstacle_avoidance.2", (path, points), who=who).holds
+
+
+@pytest.mark.parametrize("who", ["Ann Reader", "your name"])
+def test_path_that_holds_needs_points_that_prove_it(who):
+    """With 5 points and no margin, `way_round` finds a path that keeps the distance from the whole
+    bar, but these points do not prove it.
+    """
+    task, start, points = _own(who)
+    path = way_round(arm, start, task["target"], points(5), task["distance"])
+    assert clearance(arm, path, points(400)).min() >= task["distance"]
+    few = check("obstacle_avoidance.2", (path, points(5)), who=who)
+    assert few.mistake == "not proven with these points"
+    assert few.points == pytest.approx(6 / 7, 0.01)
+    d, h = clearance(arm, path, points(5)).min(), np.hypot(*(points(5)[1] - points(5)[0]))
+    proven = np.sqrt(d**2 - (h / 2) ** 2) * 1000
+    assert f"proves only {proven:.0f} mm" in " ".join(few.says)
+
+
+def test_points_that_prove_the_distance_lie_along_the_whole_bar_in_any_order():
+    task, start, points = _own("Jonas")
+    path = way_round(arm, start, task["target"], points(20), 1.1 * task["distance"])
+    asked = partial(check, "obstacle_avoidance.2", who="Jonas")
+    verdict = asked((path, points(20)))
+    d, h = clearance(arm, path, points(20)).min(), np.hypot(*(points(20)[1] - points(20)[0]))
+    proven = np.sqrt(d**2 - (h / 2) ** 2) * 1000
+    assert proven <= clearance(arm, path, points(400)).min() * 1000
+    assert verdict.holds and f"points prove {proven:.1f} mm for the whole bar" in verdict.says[1]
+    assert asked((path, points(20)[::-1])).holds
+    assert asked((path, np.column_stack([points(20), np.zeros(20)]))).holds, "points with z = 0"
+    for wrong, mistake in (
+        (points(20)[1:], "an end of the bar left out"),
+        (points(20) + 0.01, "points that are not on the bar"),
+        (points(2), "not proven with these points"),
+        (points(21), "another kind or shape"),
+        (points(20)[0], "another kind or shape"),
+        (..., "another kind or shape"),
+    ):
+        assert asked((path, wrong)).mistake == mistake
+
+
+@pytest.mark.parametrize("answer", [None, (None, [[1, 1], [2, 1]]), (None, None), (None, ...)])
+def test_search_that_found_nothing_is_not_called_an_empty_answer(answer):
+    verdict = check("obstacle_avoidance.2", answer, who="Ada")
+    if answer is None:  # the name of the answer was never given a value
+        assert not verdict.answered
+        return
+    assert verdict.answered and not verdict.holds
+    assert "found no path" in " ".join(verdict.says)
+
+
+def test_task_is_not_answered_before_both_parts_are_written():
+    assert not check("obstacle_avoidance.2", (..., ...), who="Ada").answered
+    says = " ".join(check("obstacle_avoidance.2", (..., [[1, 1], [2, 1]]), who="Ada").says)
+    assert "my_path is missing" in says
+    path = [[1, 1, 1], [2, 1, 1], [2, 2, 2]]  # the answer in earlier versions of the lab
+    says = " ".join(check("obstacle_avoidance.2", path, who="Ada").says)
+    assert "my_points" in says
+
+
+@pytest.mark.parametrize(
+    "who", ["your name", "Ann", "Bob", "Eva", "Max", "Lena", "Tom", "Ada", "Kim", "Zoe"]
+)
+def test_one_of_the_folds_in_the_hint_holds_for_every_name(who):
+    text = hint("obstacle_avoidance.2", 2)
+    assert "45°, 75° or 105°" in text and "the least, the middle or the greatest alpha" in text
+    task, start, points = _own(who)
+    held = 0
+    for beta, alpha in product((45, 75, 105), repeat=2):
+        for end in arm.family(task["target"], np.linspace(*arm.alpha_range(task["target"]), 3)):
+            fold = [beta * deg, alpha * deg]
+            path = [start, [start[0], *fold], [end[0], *fold], end]
+            held += check("obstacle_avoidance.2", (path, points(20)), who=who).holds
+    assert held >= 1
 
 
 def test_path_of_strings_is_refused_and_different_numbers_print_differently():
-    task = variant("obstacle_avoidance", "Ada")
-    start = np.array([task[name] for name in ("gamma", "beta", "alpha")])
+    task, start, points = _own("Ada")
     path = np.array([start, arm.least(task["target"], start)[0]])
-    text = check("obstacle_avoidance.2", path.astype(str), who="Ada")
+    text = check("obstacle_avoidance.2", (path.astype(str), points(20)), who="Ada")
     assert text.mistake == "another kind or shape"
     path[0, 0] += 0.01 * deg
-    says = " ".join(check("obstacle_avoidance.2", path, who="Ada").says)
+    says = " ".join(check("obstacle_avoidance.2", (path, points(20)), who="Ada").says)
     begins, stands = re.search(
         r"begins at \((.*?)\)°, but the arm stands at \((.*?)\)°", says
     ).groups()

@@ -88,7 +88,7 @@ def test_strings_instead_of_numbers_are_reported_as_the_wrong_kind(name):
             dict.fromkeys(("visit", "collect", "worth"), [["1", "2", "3"]] * 4),
         ),
         ("three_levers.3", {"first": "2", "second": 2}),
-        ("obstacle_avoidance.2", [["1", "2", "2"], ["1", "1", "1"]]),
+        ("obstacle_avoidance.2", ([["1", "2", "2"], ["1", "1", "1"]], [[1, 1], [2, 1]])),
         ("motor_synchronisation.2", {"gears": ["9", "9", "9"], "frequencies": [1, 2, 3]}),
     ],
 )

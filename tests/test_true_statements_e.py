@@ -39,7 +39,7 @@ from robokin import (
     within,
 )
 from robokin.course import book
-from robokin.jobs.obstacles import in_quadrilateral, plan, via_path
+from robokin.jobs.obstacles import clearance, in_quadrilateral, plan, via_path
 from robokin.jobs.steppers import Stepper, phases, ramp, station_postures, straight
 from robokin.jobs.visit_collect import Task, TaskError, principal_postures
 
@@ -788,6 +788,53 @@ def test_bound_on_the_motion_of_unequal_levers_is_as_stated():
         moved = np.hypot(*(arm.points(q + turn) - arm.points(q)).T).max()
         worst = max(worst, moved / (abs(turn) @ carried))
     assert 0.5 < worst <= 1
+
+
+def test_rule_about_the_reach_holds_for_targets_and_via_points_only():
+    """The gripper may come nearer to O than one lever, but targets and via points may not."""
+    assert "targets and via points lie farther than $L$ from O." in flat("10", "able")
+    for place in ((0.6, 0.7), (0.99, 0.0)):
+        assert ARM.out_of_reach(place)
+        assert np.isnan(via_path(ARM, START_10, K1_10, place, 0.05)).any()
+    path = plan(ARM, START_10, K1_10, (0.1, 1.3)).path
+    s = np.linspace(0, 1, 2001)[:, None]
+    K = np.concatenate([ARM.points(a + s * (b - a))[:, 3] for a, b in pairwise(path)])
+    assert np.hypot(*K.T).min() < 0.7, "the gripper itself may pass nearer to O"
+
+
+def test_only_one_of_the_other_points_is_in_the_quadrilateral_but_not_swept_by_ak():
+    (told,) = re.findall(r"Answer</summary> (\(.*?\)): only BA does\.", flat("10", "lever"))
+    a, b = through()
+    s = np.linspace(0, 1, 20001)[:, None]
+    found = []
+    for place in tries("10", "sweep-code"):
+        H = np.array(place)
+        near = [lever_distance(a + s * (b - a), H, slice(k, k + 1)).min() < 1e-3 for k in range(3)]
+        if in_quadrilateral(ARM, a, b, H)["AK"] and not near[2]:
+            found.append((tuple(H.tolist()), near))
+    assert found == [(eval(told), [False, True, False])]
+
+
+def test_clearance_is_a_lower_bound_as_close_as_stated():
+    words = flat("10", "whole-look")
+    (off,) = numbers(r"proven lower bound, at most (\S+) mm below the least", words)
+    rng, s = np.random.default_rng(4), np.linspace(0, 1, 40001)[:, None]
+    seen = 0
+    for _ in range(40):
+        a, b = rng.uniform(0, np.pi, (2, 3))
+        H = rng.uniform(-1, 3, 2)
+        least = lever_distance(a + s * (b - a), H).min()
+        bound = clearance(ARM, [a, b], H).min()
+        assert bound <= least
+        if bound > 0.01:  # where a lever passes over H, samples come less close to the minimum
+            seen += 1
+            assert least <= bound + off * mm + 1e-7
+    assert seen > 10
+
+
+def test_other_arm_is_asked_for_a_seventh_of_its_mean_lever():
+    (asked_for,) = numbers(r"stay (\S+) mm away, a seventh of the mean length", flat("10", "real"))
+    assert three_lever((0.9, 1.1, 0.6)).lever / 7 / mm == pytest.approx(asked_for, abs=0.05)
 
 
 def test_planning_method_changes_at_the_stated_places():

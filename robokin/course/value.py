@@ -49,7 +49,8 @@ class Value(Exercise):
                 return unanswered(name)
             if empty:
                 return unanswered(name, f"value for {' and for '.join(empty)}")
-        if isinstance(answer, tuple) and answer and all(v is None or v is ... for v in answer):
+        # in a tuple, None is the result of a call, such as that of a search which found nothing
+        if isinstance(answer, tuple) and answer and all(v is ... for v in answer):
             return unanswered(name)
         if self.given and who is None:
             line = 'Whose numbers should be used? Add your name: check(..., who="your name").'

@@ -2,7 +2,7 @@
 
 from collections.abc import Mapping
 from functools import cache
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 
@@ -15,8 +15,9 @@ from robokin.jobs.obstacles import along, clearance, way_round
 
 from .shared import ARM, Floats, direct, distances
 
-COUNT = 6
+COUNT = 7
 KEPT = 0.1  # m: the distance that the exercise asks for
+MOST = 20  # points of the bar for the proof
 BETWEEN = 0.02  # m: between the measured points of the bar; the distance is then exact to 0.5 mm
 UNITS = {
     **dict.fromkeys(("gamma", "beta", "alpha"), ("°, where the arm stands", deg)),
@@ -34,8 +35,8 @@ def given(who: Any) -> Numbers:
 
 @cache
 def task(who: str) -> dict[str, Any]:
-    """The numbers of `given`: drawn until folding keeps the distance, and the bar's ends alone do
-    not suffice.
+    """The numbers of `given`: drawn until folding keeps the distance, which evenly spaced points
+    prove, and the bar's ends alone do not suffice.
     """
     roll = dice("obstacle_avoidance", who)
     while True:
@@ -55,7 +56,7 @@ def task(who: str) -> dict[str, Any]:
         room += [distances(start[None] * deg, place).min() - 0.15 for place in places[::5]]
         if np.hypot(*(bar[1] - bar[0])) < 0.4 or min(map(np.min, room)) < 0:
             continue
-        least = cheapest(start * deg, target, places)
+        least = cheapest(start * deg, target, bar)
         if least is None or ends_are_enough(start * deg, target, bar):
             continue
         return {
@@ -83,10 +84,11 @@ def ends_are_enough(q0: Floats, target: Floats, bar: Floats) -> bool:
     return path is not None and bool(clearance(ARM, path, points_of(bar)).min() > KEPT / 2)
 
 
-def cheapest(q0: Floats, target: Floats, places: Floats) -> float | None:
-    """The movement of the cheapest path of the kind fold, swing, unfold, among a few; None: none
-    keeps the distance.
+def cheapest(q0: Floats, target: Floats, bar: Floats) -> float | None:
+    """The movement of the cheapest path of the kind fold, swing, unfold, among those of hint 2;
+    None: none keeps the distance.
     """
+    places, few = points_of(bar), bar[0] + np.linspace(0, 1, MOST)[:, None] * (bar[1] - bar[0])
     low, high = ARM.alpha_range(target)
     if not low < high:
         return None
@@ -110,33 +112,67 @@ def cheapest(q0: Floats, target: Floats, places: Floats) -> float | None:
             if not far.any():
                 return None
     for path, cost in sorted(zip(paths[far], S[far], strict=True), key=lambda pair: pair[1]):
-        if clearance(ARM, path, places).min() >= KEPT:
+        if min(clearance(ARM, path, places).min(), proven(path, few)[2]) >= KEPT:
             return float(cost)
     return None
 
 
-def form(answer: Any, given: Mapping[str, Any]) -> Floats:
-    """Return the path as postures (k, 3). ValueError: it is not a path."""
-    wanted = "wanted a path: two or more postures (gamma, beta, alpha), (k, 3) radians"
+class Answer(NamedTuple):
+    """A path (k, 3), and the points (m, 2) on the bar that prove its distance."""
+
+    path: Floats
+    points: Floats
+
+
+def form(answer: Any, given: Mapping[str, Any]) -> Answer:
+    """Return the answer in its parts. ValueError: a part is of another kind."""
+    if not isinstance(answer, (tuple, list)) or len(answer) != 2:
+        raise ValueError(f"wanted (my_path, my_points), got {in_words(answer)}")
+    path, points = answer
+    if path is None:
+        line = "my_path is None: way_round found no path. Ask it for a smaller distance or give it "
+        raise ValueError(line + "fewer points, or plan by hand, as hint 2 says.")
+    for name, part in (("my_path", path), ("my_points", points)):
+        if part is ... or part is None:
+            raise ValueError(f"{name} is missing: write it into its cell, then check again.")
+    wanted = "my_path: wanted two or more postures (gamma, beta, alpha), (k, 3) radians"
+    path = table(path, wanted, (3,), 2, 100)
+    wanted = "my_points: wanted two or more points (x, y) on the bar, (m, 2) metres"
+    return Answer(path, table(points, wanted, (2, 3), 2, MOST)[:, :2])
+
+
+def table(answer: Any, wanted: str, widths: tuple[int, ...], least: int, most: int) -> Floats:
+    """Return the answer as an array of rows. ValueError, which begins with `wanted`: it is none."""
     if isinstance(answer, (str, Mapping)):
         raise ValueError(f"{wanted}, got {in_words(answer)}")
     try:
-        path = floats([[x for x in row] for row in answer])
+        rows = floats([[x for x in row] for row in answer])
     except (TypeError, ValueError):
         raise ValueError(f"{wanted}, got {in_words(answer)}") from None
-    if path.ndim != 2 or path.shape[1:] != (3,) or len(path) < 2:
-        raise ValueError(f"{wanted}, got shape {path.shape}")
-    if not np.isfinite(path).all():
+    if rows.ndim != 2 or rows.shape[1] not in widths or len(rows) < least:
+        raise ValueError(f"{wanted}, got shape {rows.shape}")
+    if not np.isfinite(rows).all():
         raise ValueError(f"{wanted}, got NaN in it")
-    if len(path) > 100:
-        raise ValueError(f"{wanted}, at most 100 of them, got {len(path)}")
-    return path
+    if len(rows) > most:
+        raise ValueError(f"{wanted}, at most {most} of them, got {len(rows)}")
+    return rows
 
 
-def faults(path: Floats, given: Mapping[str, Any]) -> list[tuple[str, str]]:
-    """What is wrong with the start, the end at the target, the limits, the distance from the ends
-    of the bar and from the part between them, and the amount of movement.
+def proven(path: Floats, points: Floats) -> tuple[float, float, float]:
+    """Return the least distance d of the path from the points, the greatest gap h between two
+    neighbours, and the distance from everything in between that they prove.
     """
+    d = float(clearance(ARM, path, points).min())
+    order = (points @ (points[-1] - points[0])).argsort()
+    h = float(np.hypot(*np.diff(points[order], axis=0).T).max())
+    return d, h, float(np.sqrt(max(0.0, d**2 - (h / 2) ** 2)))
+
+
+def faults(answer: Answer, given: Mapping[str, Any]) -> list[tuple[str, str]]:
+    """What is wrong with the start, the end at the target, the limits, the distance from the ends
+    of the bar and from the part between them, the points that prove it, and the amount of movement.
+    """
+    path, points = answer
     start = np.array([given[name] for name in ("gamma", "beta", "alpha")])
     if abs(path).max() > 4 * np.pi:
         return [("degrees for radians", DEGREES)] * COUNT
@@ -169,14 +205,49 @@ def faults(path: Floats, given: Mapping[str, Any]) -> list[tuple[str, str]]:
         says = f"Posture {i + 1}: {name} is {is_at}°, but it must be between 0 and 180°."
         found.append(("past a limit", says))
     bar = points_of(given["bar"])
-    found += too_near(path, bar[[0, -1]], "the ends of the bar", given["distance"])
-    found += too_near(path, bar[1:-1], "the bar between its ends", given["distance"])
+    near = too_near(path, bar[[0, -1]], "the ends of the bar", given["distance"])
+    near += too_near(path, bar[1:-1], "the bar between its ends", given["distance"])
+    found += near or unproven(path, points, given)
     S = float(abs(np.diff(path, axis=0)).sum())
     if S > given["most"] + 1e-9:
         moved, most = apart(S / deg, given["most"] / deg)
         says = f"S is {moved}°, but you may spend at most {most}°."
         found.append(("too much movement", says))
     return found
+
+
+def holds(answer: Answer, given: Mapping[str, Any]) -> tuple[str, ...]:
+    """How much the points prove."""
+    found = proven(*answer)[2] / mm
+    return (f"Your {len(answer.points)} points prove {found:.1f} mm for the whole bar.",)
+
+
+def unproven(path: Floats, points: Floats, given: Mapping[str, Any]) -> list[tuple[str, str]]:
+    """The fault of points that do not prove that a path keeps the distance from the whole bar."""
+    first, last = np.array(given["bar"])
+    way = (last - first) / np.hypot(*(last - first))
+    share = np.clip((points - first) @ way, 0, (last - first) @ way)
+    off = np.hypot(*(first + share[:, None] * way - points).T)
+    if off.max() > 1 * mm:
+        x, y = points[off.argmax()]
+        says = f"Your point ({x:.3f}, {y:.3f}) m is {off.max() / mm:.0f} mm from the bar."
+        return [("points that are not on the bar", says)]
+    for end in (first, last):
+        gap = float(np.hypot(*(points - end).T).min())
+        if gap > 1 * mm:
+            says = f"Your points begin or end {gap / mm:.0f} mm from the end ({end[0]:g}, "
+            return [("an end of the bar left out", says + f"{end[1]:g}) m of the bar.")]
+    d, h, found = proven(path, points)
+    if found >= given["distance"] - 1e-5:
+        return []
+    near, wanted = apart(found / mm, given["distance"] / mm, 0)
+    says = (
+        f"The levers stay d = {d / mm:.1f} mm away from your {len(points)} points, which are up to "
+        f"h = {h / mm:.0f} mm apart. For the bar between them this proves only {near} mm; the task "
+        f"asks for {wanted} mm. So the answer is still no: give at most {MOST} points that are "
+        "closer together, or ask for a path that stays farther away."
+    )
+    return [("not proven with these points", says)]
 
 
 def too_near(path: Floats, places: Floats, name: str, distance: float) -> list[tuple[str, str]]:
@@ -200,8 +271,8 @@ def too_near(path: Floats, places: Floats, name: str, distance: float) -> list[t
         says += f" Every posture of the path stays {corners / mm:.0f} mm away: look between them."
         if gripper >= distance:
             says += " The gripper keeps this distance on the way, but a lever does not."
-        return [(f"{name}: too near between two postures", says)]
+        return [(f"too near to {name} between two postures", says)]
     if gripper >= distance:
         says += " The gripper keeps this distance, but a lever does not."
-        return [(f"{name}: the gripper passes, a lever does not", says)]
+        return [(f"the gripper keeps away from {name}, but a lever does not", says)]
     return [(f"too near to {name}", says)]

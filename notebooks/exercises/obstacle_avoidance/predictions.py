@@ -124,7 +124,8 @@ def p4() -> dict[str, Any]:
     true = float(clearance(ARM, path, SAMPLED).min())
     less = {"the nearest sample": 0, "a little less": 5, "a decimetre less": 100, "more": -50}
     told = {"count": SEEN, "x": SAMPLED[0], "y": SAMPLED[1], "wanted": WANTED / mm}
-    told |= {"seen": seen / mm, "true": true / mm, "less": (seen - true) / mm}
+    told |= {"least": float(np.floor(seen / mm)), "seen": seen / mm}
+    told |= {"true": true / mm, "less": (seen - true) / mm}
     return told | {"right": nearest(less, told["less"])}
 
 
