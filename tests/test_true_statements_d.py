@@ -334,7 +334,7 @@ def test_elbows_are_swapped_on_the_stated_side():
             elbow = program(np.zeros(2), np.array([x, 0.5]), 1, 0.8, 1)
             if x * elbow[1] - 0.5 * elbow[0] > 0:  # the elbow is to the left of the line to the tip
                 sides.append("right" if x > 0 else "left")
-    assert sides == ["right", "left"]
+    assert sides == ["right"] * 4 + ["left"] * 4
     assert [re.search(r"to its (\w+) the two", says)[1] for _, says, _ in said] == sides
 
 
