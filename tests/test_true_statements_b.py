@@ -164,7 +164,7 @@ def test_rows_are_usable_where_the_first_view_says():
     fits, reach = inside([550, 0, 800])
     assert reach and (one, other, straight) == ("eight", "three", "three")
     assert fits.all(axis=-1).sum() == 3
-    (average,) = said("07", "count-look", r"The average is ([\d.]+)\. ")
+    (average,) = said("07", "count-look", r"The average is about ([\d.]+)\. ")
     assert average == round(content("puma560_branches").module("predictions")["p4"]()["mean"], 1)
     low, high, *behind = said(
         "07", "able", r"From y = (\S+) to (\S+) mm, and from (\S+) to (\S+) mm\. Straight ahead"

@@ -204,7 +204,7 @@ def test_least_heights_of_the_via_point_are_as_stated():
     path = _rounded(0, least)
     assert path[:, 2].min() == pytest.approx(DEEPEST, abs=0.01)
     assert round(np.linalg.norm(path - STATIONS[1], axis=1).min()) == distance
-    assert "stroke of 220.2 mm, but joint 4 stops at 180 mm" in flat("05", "able")
+    assert "lower the tool by 220.2 mm, but it stops at 180 mm" in flat("05", "able")
 
 
 def test_least_blend_is_the_fraction_of_the_time_below_the_lowest_height():
