@@ -41,6 +41,7 @@ export function element(tag, attributes = {}, ...children) {
  */
 export function control(tag, attributes, ...children) {
   const forbids = "data-lm-suppress-shortcuts",
+    /** @type {HTMLElement & HTMLElementTagNameMap[T]} */
     node = element(tag, {[forbids]: "true", ...attributes}, ...children);
   node.addEventListener("keydown", event => {
     const {key, shiftKey, ctrlKey, metaKey} = event;
