@@ -380,7 +380,9 @@ def test_row_of_the_posture_is_always_named_at_the_edge(page, tmp_path, width):
     q = follow(IRB140, IRB140.ik(poses), IRB140.branch(+1, +1, +1))
     # one arm with a slider, and two arms side by side or one above the other
     one = animate(IRB140, t, q, slider=("x, m", [0.35, 0.5]))
-    for view, count in ((one, 1), (animate([IRB140] * 2, t, list(q), names=names), 2)):
+    long = ["the first of two long names", "the second of them"]
+    pairs = [(animate([IRB140] * 2, t, list(q), names=each), 2) for each in (names, long)]
+    for view, count in ((one, 1), *pairs):
         shown(page, view, tmp_path, width, "min", "x", RECORD)
         for end in ("min", "max"):
             page.evaluate(TO_END, [end, "x"])

@@ -292,8 +292,12 @@ function drawSpace(pen, arms, [x, y, w, h], named) {
   for (const kind in KINDS) KINDS[kind].above({...pen, near: first.near}, only(kind), ofThings);
   labels.push(...all.flatMap(drawFlange), ...ofThings); // a flange is drawn over its target
   if (named) {
-    write(g, first.name, x + 10, y + 18, colors.ink, 13, "left", "600");
-    write(g, first.row ?? "", x + w - 10, y + 18, colors.ink, 12, "right");
+    const {name, row = ""} = first;
+    write(g, name, x + 10, y + 18, colors.ink, 13, "left", "600");
+    // below the name if there is no room beside it
+    if (g.measureText(`${name} ${row}`).width < w - 24)
+      write(g, row, x + w - 10, y + 18, colors.ink, 12, "right");
+    else write(g, row, x + 10, y + 34);
   }
   if (arms.some(arm => arm.faded)) {
     const at = /** @type {Pixel} */ ([x + w / 2, y]),
