@@ -116,7 +116,13 @@ class Lab:
         """Run a cell, with another text if there is one; return what it then shows."""
         if text is not None:
             self.edit(name, text)
+        self.cell(name).evaluate("""place => {
+            place.begun = false;
+            new MutationObserver(() => { place.begun = true; })
+                .observe(place, {attributeFilter: ["data-running"]}); }""")
         self.button(name, "Run").click()
+        begun = self.cell(name)  # on a busy machine, the click comes later
+        until(lambda: begun.evaluate("place => place.begun"), "it does not begin", self.page)
         self.done()
         return self.shows(name)
 
