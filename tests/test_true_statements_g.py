@@ -228,7 +228,9 @@ def test_another_factor_makes_another_point_the_nearest():
 def test_numbers_of_the_question_about_more_time_are_right():
     question, options, right = asked("visit_and_collect.p6")
     words = question + "".join(each.reason + each.second for each in options)
-    (T,) = numbers(r"The arm has (\d+) s now, twice as long as in the opening", question)
+    (T,) = numbers(
+        r"The arm has (\d+) s now, twice as long as in the first view of the lab", question
+    )
     places, legs = opening(), table(opening())
     assert T == 2 * 7.5 and touched(T, places) == (1, 3) and options[right].text == "One: point 0."
     assert "take 5.0, 5.5, 6.0, 6.5 s" in question
@@ -288,9 +290,7 @@ def test_second_postures_gain_points_in_as_many_random_tasks_as_stated():
 def test_another_round_trip_beats_nearest_first_as_stated():
     reason = one_line(option("visit_and_collect.p5", "emptied at the end").reason)
     assert "this is visiting, with a return at the end. Within" in reason
-    told = (
-        r"Within (\d+) s, nearest first brings (\d) of the points in the opening, and another order"
-    )
+    told = r"Within (\d+) s, nearest first brings (\d) of the objects at the points of the first view, and another order"
     T, few, many = numbers(rf"{told} brings (\d)\.", reason)
     legs = table(opening())
     rules = (
@@ -325,8 +325,9 @@ def test_time_to_collect_is_three_times_the_time_to_visit():
     assert (
         "# worth: T_collect is 3 T; a cheap one costs T, the valuable one 2.4 T" in TRAPS.solution
     )
-    assert "there and back it takes T of the 3 T), the valuable one at −1.2 B (2.4 T)" in one_line(
-        TRAPS.hints[2]
+    assert (
+        "the trip there and back takes T of the 3 T), the valuable one at −1.2 B (2.4 T)"
+        in one_line(TRAPS.hints[2])
     )
     assert "there is time for 1.5 B there and back" in one_line(TRAPS.hints[1])
     for k in range(60):
