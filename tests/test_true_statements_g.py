@@ -290,7 +290,10 @@ def test_second_postures_gain_points_in_as_many_random_tasks_as_stated():
 def test_another_round_trip_beats_nearest_first_as_stated():
     reason = one_line(option("visit_and_collect.p5", "emptied at the end").reason)
     assert "this is visiting, with a return at the end. Within" in reason
-    told = r"Within (\d+) s, nearest first brings (\d) of the objects at the points of the first view, and another order"
+    told = (
+        r"Within (\d+) s, nearest first brings (\d) of the objects at the points of the first view, "
+        "and another order"
+    )
     T, few, many = numbers(rf"{told} brings (\d)\.", reason)
     legs = table(opening())
     rules = (
