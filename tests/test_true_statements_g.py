@@ -291,8 +291,8 @@ def test_another_round_trip_beats_nearest_first_as_stated():
     reason = one_line(option("visit_and_collect.p5", "emptied at the end").reason)
     assert "this is visiting, with a return at the end. Within" in reason
     told = (
-        r"Within (\d+) s, nearest first brings (\d) of the objects at the points of the first view, "
-        "and another order"
+        r"Within (\d+) s, nearest first brings (\d) of the objects at the points of the first view,"
+        " and another order"
     )
     T, few, many = numbers(rf"{told} brings (\d)\.", reason)
     legs = table(opening())
