@@ -484,16 +484,20 @@ def test_belt_player_shows_the_streams_of_the_table(monkeypatch):
     assert busy == [spread >= 0.4 for spread in spreads]
 
 
+def given_to_animate(monkeypatch, cell, call):
+    """The arguments that this call in a cell of lab 14 passes to `animate`."""
+    assert call in cells("14")[cell]
+    monkeypatch.setattr("robokin.show.conveyor.animate", lambda *given, **named: (given, named))
+    return eval(call, {"conveyor_player": conveyor_player})
+
+
 def test_one_arm_brings_as_many_objects_by_each_rule_as_stated(monkeypatch):
     assert (
         'At each spread, "back soonest" brings four or five in these six seconds, and "first come" '
         "brings two." in flat("14", "belt-one-arm")
     )
     call = "conveyor_player(0.15, [0, 0.5, 1], arms=1, rules=True)"
-    assert call in cells("14")["belt-player"]
-    # `animate` returns its arguments
-    monkeypatch.setattr("robokin.show.conveyor.animate", lambda *given, **named: (given, named))
-    (_, clock, (q,)), named = conveyor_player(0.15, [0, 0.5, 1], arms=1, rules=True)
+    (_, clock, (q,)), named = given_to_animate(monkeypatch, "belt-player", call)
     assert named["switch"][1] == ("back soonest", "first come")
     (brought,) = named["quantities"].values()
     assert brought.shape == (2, 3, len(clock)) == q.shape[:-1]
@@ -578,9 +582,7 @@ def test_only_first_come_gives_the_fourth_arm_work(monkeypatch):
         "even at 0." in flat("14", "belt-several")
     )
     call = "conveyor_player(0.2, [0, 0.5, 1], arms=4, rules=True)"
-    assert call in cells("14")["belt-rules-player"]
-    monkeypatch.setattr("robokin.show.conveyor.animate", lambda *given, **named: (given, named))
-    (_, _, motions), named = eval(call, {"conveyor_player": conveyor_player})
+    (_, _, motions), named = given_to_animate(monkeypatch, "belt-rules-player", call)
     assert named["title"] == "200 mm/s: which rule gives arm 4 work to do?"
     moves = np.ptp(motions[3], axis=2).max(axis=-1)  # of arm 4, by rule and spread
     assert not moves[0].any() and (moves[1] > 0.5).all()
