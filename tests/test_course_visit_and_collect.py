@@ -81,7 +81,7 @@ def test_correct_tests_pass(answer):
     "answer, mistake",
     [
         (judge_on(POINTS), "accepts: not a number on axis 1"),
-        (judge_on(np.vstack([POINTS, AXIS[:2]])), "accepts: not a number on the border"),
+        (judge_on(np.vstack([POINTS, AXIS[:2]])), "accepts: not a number on the boundary"),
         (judge_on(np.vstack([POINTS, AXIS]), shape=False), "accepts: a matrix with one row"),
         (judge_on(np.vstack([POINTS, AXIS]), limits=lambda q: True), "accepts: the other elbow"),
         (

@@ -107,7 +107,7 @@ def test_angles_can_be_interpolated_if_only_one_of_them_changes():
 
 
 def test_statements_on_scalar_parts_speed_jumps_and_parallel_axes_are_true():
-    told = "At φ = 90°. Otherwise, $q\\,v$ is shorter along the axis, and the rest is in the real"
+    told = "At φ = 90°. Otherwise, part of $v$ is parallel to the axis, and $q\\,v$ has a real"
     assert f"{told} part." in flat("01", "turning-why")
     u, q = np.array([1, 2, 2]) / 3, 0.4
     for point in ([2.0, -1, 0], [0.3, 1, 2]):
@@ -469,7 +469,7 @@ def test_elbow_line_ends_at_the_stated_distance_from_full_stretch():
         assert np.sqrt(out @ out - 150.05**2) == pytest.approx(431.8 + np.hypot(431.8, 20.3))
     for m in (100 * mm, 10 * mm):
         assert LINE["stretched"](m).translation == pytest.approx(pose.translation + m * away)
-    assert "We take many poses that the arm can reach" in flat("07", "count")
+    assert "We take many random poses that the arm can reach" in flat("07", "count")
 
 
 def test_arm_is_stretched_and_forearm_points_up_where_stated():

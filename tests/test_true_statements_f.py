@@ -480,8 +480,8 @@ def test_regular_formulas_lose_digits_at_the_stated_angle():
         for place in ("0", "180 degrees")
     )
     told = "its angles are inaccurate: try"
-    assert low == f"Near theta = 0, {told} 1e-8 rad, and angles equally close to 180 degrees."
-    high_told = f"{told} 180 degrees minus 1e-8 rad, and angles equally close to 0."
+    assert low == f"Near theta = 0, {told} 1e-8 rad, and angles just as close to 180 degrees."
+    high_told = f"{told} 180 degrees minus 1e-8 rad, and angles just as close to 0."
     assert high == f"Near theta = 180 degrees, {high_told}"
     made = lab_06()
     book_way = made["textbook_wrist"]

@@ -156,7 +156,7 @@ def touched(T, places):
 
 
 def test_greed_loses_two_points_and_none_at_the_stated_times():
-    told = r"From (\S+) to (\S+) s it loses two points, and from (\S+) s on none"
+    told = r"From (\S+) to (\S+) s it loses two points, and from (\S+) s on it loses none"
     start, two, none = numbers(told, flat("08", "visit-look"))
     assert start == 7.5
     places, legs = opening(), table(opening())
@@ -438,8 +438,8 @@ def test_belt_table_shows_one_stream_and_other_streams_need_one_more_arm():
         in words
     )
     assert (
-        "With each of the next four, 9 to 12, spread 1 needs a fourth arm at 200 mm/s and a fifth "
-        "at 300 mm/s." in flat("14", "deeper")
+        "With each of the next four streams, 9 to 12, spread 1 needs a fourth arm at 200 mm/s and "
+        "a fifth at 300 mm/s." in flat("14", "deeper")
     )
     printed = shown("14", "deeper-orders")
     assert "200 mm/s: 3 4 4 4 4\n300 mm/s: 4 5 5 5 5" in printed
@@ -546,8 +546,8 @@ def test_twice_the_gap_does_not_double_the_speed_for_uneven_gaps():
     words = flat("14", "belt-curve-look")
     assert "With a mean gap of 300 mm, the speed at spread 0 doubles." in words
     low, high, low_long, high_long = numbers(
-        r'"Back soonest" takes all objects up to (\d+) to (\d+) mm/s with the short gaps, and up '
-        r"to only (\d+) to (\d+) mm/s with the long ones",
+        r'With the short gaps, "back soonest" takes all objects at speeds up to (\d+)–(\d+) mm/s; '
+        r"with the long ones, only up to (\d+)–(\d+) mm/s",
         words,
     )
     assert "gap = 150 * mm  # try 300 * mm" in cells("14")["belt-spread"]
