@@ -61,10 +61,18 @@ def test_moving_things_are_drawn_and_missing_ones_are_not(tmp_path):
     still = np.repeat(q[:1], len(T), axis=0)
     moved, _ = frames(animate(SCARA, T, still, **around), tmp_path / "moved.gif")
     assert not alike(moved[0], moved[-1])
-    gone = np.where(T[:, None] > 2, np.nan, WAY)
-    found, _ = frames(animate(IRB140, T, gone), tmp_path / "gone.gif")
+    lost = np.where(T[:, None] > 2, np.nan, WAY)
+    found, _ = frames(animate(IRB140, T, lost), tmp_path / "lost.gif")
     dark = (found.max(axis=-1) < 100).sum(axis=(1, 2))  # pixels of the arm and a few labels
     assert dark[-1] < dark[:20].min() / 3
+    # the last posture stays, lighter: all that was dark, except the labels, has another colour now
+    paper = found[0, 0, 0]
+    posture = found[int(2 * film.RATE)].max(axis=-1) < 100
+    there = (abs(found[-1].astype(int) - paper).sum(axis=-1) > 60)[posture]
+    assert there.mean() > 0.9
+    begin, _ = frames(animate(IRB140, T, lost[::-1]), tmp_path / "begin.gif")
+    dark = (begin.max(axis=-1) < 100).sum(axis=(1, 2))
+    assert dark[0] < dark[-20:].min() / 3
 
 
 def test_labels_of_moving_things_are_next_to_them():

@@ -40,6 +40,7 @@ class Film:
     ) -> None:
         self.t, self.motions, self.things = t, motions, things
         self.page, self.title, self.bases = page, title, bases
+        self.known = [_known(q) for _, q in motions]
 
     def gif(self) -> bytes:
         """Return the film as a GIF that repeats forever. Raises ValueError if it is larger than 3
@@ -91,7 +92,7 @@ class Film:
             for scene, own in scenes:
                 before = list(scene.ax.get_children())
                 fixed = [*scene.drawn], [*scene.labels], [*scene.boxes]
-                self._moving(scene, [(*self.motions[i], feet[i]) for i in own], sample)
+                self._moving(scene, own, feet, sample)
                 new = [each for each in scene.ax.get_children() if each not in before]
                 for artist in sorted(new, key=lambda each: each.get_zorder()):
                     scene.ax.draw_artist(artist)
@@ -110,15 +111,22 @@ class Film:
                 thing.draw(scene, None)
         scene.finish()
 
-    def _moving(
-        self, scene: Scene, arms: Sequence[tuple[Arm, Floats, Floats]], sample: int
-    ) -> None:
-        """Draw the arms and the moving things, with their labels, at one sample."""
-        for arm, q, base in arms:
-            scene.arm(arm, q[sample], "last", base)
+    def _moving(self, scene: Scene, own: Sequence[int], feet: Floats, sample: int) -> None:
+        """Draw the arms `own` and the moving things, with their labels, at one sample. An arm
+        without a posture is drawn lighter, in its last posture before.
+        """
+        for k in own:
+            (arm, q), base, known = self.motions[k], feet[k], self.known[k][sample]
+            scene.arm(arm, q[known], "last" if known == sample else "first", base)
             if not apart(self.bases):
-                scene.triad(Transform(translation=base) @ flange(arm, q[sample]), width=2.4)
+                scene.triad(Transform(translation=base) @ flange(arm, q[known]), width=2.4)
         for thing in self.things:
             if thing.moves:
                 thing.draw(scene, sample)
         scene.place_labels()
+
+
+def _known(q: Floats) -> Ints:
+    """For each sample, the last one up to it that has a posture; the first sample if none has."""
+    known = np.isfinite(q).all(axis=-1)
+    return np.maximum.accumulate(np.where(known, np.arange(len(q)), 0))
