@@ -157,6 +157,7 @@ WRONG_POSES = {
     "mm for m": Transform(turned(180 * deg, Y), (70, 0, 297)),
     "rows twice: a singular pose": singular(),
     "the rows that face the target": Transform(turned(180 * deg, Y), np.array([720, 0, 287]) * mm),
+    "exactly at the edge": Transform(turned(180 * deg, Y), np.array([70, 0, 317]) * mm),
 }
 
 
@@ -320,6 +321,22 @@ def test_replies_about_speed_do_not_give_the_duration_away():
 def test_message_about_a_limit_states_the_time_the_joint_and_the_excess():
     says = " ".join(check(DESIGN, design("anna") | {"flags": (1, 1, 1)}, who="anna").says)
     assert re.search(r"Joint 1 is past its limit of −?-?180° by \d+\.\d° at t = \d\.\d\d s", says)
+
+
+@pytest.mark.parametrize("k", range(20))
+def test_replies_about_limits_ignore_the_speed_and_explain_joint_1(k):
+    """With front +1, joint 1 crosses half a turn for each student."""
+    for flags in IRB140.branches.tolist():
+        for duration in (0.01, 1000.0):
+            verdict = check(DESIGN, {"height": 0.8, "flags": flags, "duration": duration}, who=k)
+            if not verdict.mistake.startswith("past a limit"):
+                assert flags[0] < 0
+                continue
+            says = " ".join(verdict.says)
+            assert verdict.points <= 0.75 and "speed limit" not in says
+            assert ("behind the arm" in says) == (flags[0] > 0)
+            if flags[0] > 0:
+                assert "Joint 1 is past its limit" in says
 
 
 # --- Answers to the predictions -------------------------------------------------------------------

@@ -225,6 +225,43 @@ def test_limits_of_the_moving_target_are_as_stated():
         assert past[0, 2] == (height < none)
 
 
+@pytest.mark.parametrize("who", ["Ana Test", "Ben", "anna"])
+def test_the_view_of_exercise_3_and_its_check_name_the_same_joints(who):
+    """The view adds the whole turns that the exercise allows."""
+    exercise = book.lab("irb140_kinematics").module("own_target")
+    numbers, inside = exercise["given"](who), 0
+    for row, flags in enumerate(IRB140.branches.tolist()):
+        height = (0.5, 0.7, 0.9)[row % 3]
+        text = cells("02")["look-3"]
+        for name, value in (("height", height), ("flags", flags)):
+            text, count = re.subn(rf"^look_{name} = .*", f"look_{name} = {value}", text, flags=re.M)
+            assert count == 1
+        text, count = re.subn(r"^animate\(", "view = animate(", text, flags=re.M)
+        assert count == 1
+        names = {
+            "np": np,
+            "IRB140": IRB140,
+            "mm": mm,
+            "my_target": lambda t, total, z: exercise["target"](numbers, t / total, z),
+        }
+        exec(text, names)
+        notes = " ".join(names["view"].data["arms"][0].get("notes", {}).get("0", []))
+        shown = re.findall(r"q(\d) exceeds its limit", notes)
+        faults = exercise["faults"]({"height": height, "flags": flags, "duration": 10.0}, numbers)
+        past = [re.findall(r"\d", name) for name, _ in faults if name.startswith("past a limit")]
+        assert shown == (past[0] if past else []), (height, flags)
+        inside += not past
+    assert inside
+    assert "Each joint starts at the representative that keeps it inside" in flat(
+        "02", "look-3-ask"
+    )
+
+
+def test_the_loop_over_the_fronts_keeps_the_tool_direction_of_the_first_view():
+    names = run_cells("02", "opening", "chain-code", "triangle-code")
+    assert isinstance(names["ahead"], Quaternion)
+
+
 def test_axis_5_points_in_the_stated_direction():
     side, down = numbers(
         r"axis 5, (\d+) degrees from side and (\d+) from down", shown("02", "matrix-figure")

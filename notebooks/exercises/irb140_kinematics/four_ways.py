@@ -83,6 +83,12 @@ def too_many(pose: Transform, count: int) -> Fault:
             f"65 mm behind the flange. {where}"
         )
         return "the flange instead of the wrist centre", says
+    if abs(from_shoulder(np.asarray(pose @ (-L4 * Z)), +1) - CLOSE) < 0.01 * mm:
+        says = (
+            f"{where} At exactly 30 mm, the triangle still closes: the arm is folded, and its two "
+            "elbow positions coincide. Choose a smaller distance."
+        )
+        return "exactly at the edge", says
     says = (
         f"{count} rows of ik exist. {where} At which distances does the triangle close with front "
         "−1, but not with front +1?"

@@ -92,7 +92,17 @@ def faults(design: Mapping[str, Any], given: Mapping[str, Any]) -> list[Fault]:
         )
         return [("out of reach", says)] * 4
     q = np.unwrap(rows, axis=0)
-    return [*past_limits(q, p * duration), *speeds(q, duration, given)]
+    past, rate = past_limits(q, p * duration), speeds(q, duration, given)
+    if not past or any(name.startswith("a jump") for name, _ in rate):
+        return [*past, *rate]
+    # Another height or other flags will change the speeds, so the reply does not mention them.
+    name, says = past[0]
+    if design["flags"][0] > 0:
+        says += (
+            " Your target moves behind the arm, and with front +1, joint 1 is at ±180° where the "
+            "wrist centre is exactly behind it."
+        )
+    return [(name, says)] * (1 + len(rate))
 
 
 def past_limits(q: Floats, t: Floats) -> list[Fault]:
