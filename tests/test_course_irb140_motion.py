@@ -235,6 +235,43 @@ def test_library_call_leaves_a_joint_outside_its_limits_and_does_not_pass():
     assert "joint 3 has no value inside its limits of -230° and 50°" in verdict.case
 
 
+@pytest.mark.parametrize("order", ["up, then down", "down, then up", "up or down"])
+def test_one_turn_more_where_the_nearest_value_is_outside_the_limits_is_reported(order):
+    def answer(q0, q1, s, limits):
+        end = q1 + 2 * np.pi * np.round((q0 - q1) / (2 * np.pi))
+        for joint, (low, high) in enumerate(limits):
+            if order == "up or down":
+                end[joint] += 2 * np.pi * (int(end[joint] < low) - int(end[joint] > high))
+            for way in order.split(", then "):
+                if way == "up" and end[joint] < low:
+                    end[joint] += 2 * np.pi
+                if way == "down" and end[joint] > high:
+                    end[joint] -= 2 * np.pi
+        return q0 + s[:, None] * (end - q0)
+
+    verdict = check("irb140_motion.2", answer)
+    assert not verdict.holds and verdict.mistake == "a value outside the limits", verdict
+
+
+@pytest.mark.parametrize("samples", [101, 501, 1001])
+@pytest.mark.parametrize("method", ["gradient", "diff"])
+def test_acceleration_measured_on_coarse_samples_is_reported(samples, method):
+    def answer(distance, corner):
+        b = _by_hand(distance, corner)
+        if np.isnan(b):
+            return b, b
+        t = np.linspace(0, 20, samples)
+        place = blend(START, VIA, GOAL, b, t / 20, corner=corner).translation
+        if method == "diff":
+            push = np.diff(place, 2, axis=0) / t[1] ** 2
+        else:
+            push = np.gradient(np.gradient(place, t, axis=0), t, axis=0)
+        return b, np.linalg.norm(push, axis=1).max()
+
+    verdict = check("irb140_motion.1", answer)
+    assert verdict.mistake == "the acceleration measured on coarse samples", verdict
+
+
 @pytest.mark.parametrize("without", ["q1", "the first value", "the nearest value", "NaN", "q0"])
 def test_one_turn_is_too_little_whatever_stands_in_for_the_value_that_is_missing(without):
     def answer(q0, q1, s, limits):

@@ -93,10 +93,10 @@ def raised(fraction: float) -> float:
     return fraction
 
 
-def measured(fraction: float, corner: str) -> float:
-    """The greatest acceleration of the tool, from samples 20 ms apart."""
+def measured(fraction: float, corner: str, samples: int = 1001) -> float:
+    """The greatest acceleration of the tool, from samples of the whole motion."""
     if np.isnan(fraction):
         return fraction
-    t = np.linspace(0, DURATION, 1001)
+    t = np.linspace(0, DURATION, samples)
     place = blend(START, VIA, GOAL, min(fraction, 0.5), t / DURATION, corner=corner).translation
     return float(np.linalg.norm(differentiate(place, t, 2), axis=-1).max())

@@ -4,7 +4,7 @@ from typing import Any
 
 import numpy as np
 
-from robokin import IRB140, deg, differentiate, mm
+from robokin import IRB140, deg, differentiate, follow, mm
 from robokin.show import curves, figure, plot_joints
 from robokin.show.palette import SOFT
 
@@ -21,13 +21,14 @@ from .predictions import (
     free_pace,
     joint_3,
     misses,
+    out_of_reach,
     p2,
     p6,
     p10,
     sharp,
     tool_acceleration,
 )
-from .shared import HIGH, LOW, MINUS, D
+from .shared import HIGH, LOW, MINUS, ROW, D
 
 
 def p1_view() -> Any:
@@ -163,9 +164,20 @@ def p9_view() -> str:
     return "\n".join(lines)
 
 
-def p10_view() -> str:
-    facts = p10()
-    return (
-        f"np.unwrap(q, axis=0): {facts['left']} of {facts['count']} samples usable\n"
-        f"follow: {facts['there']} of {facts['count']} samples usable"
+def p10_view() -> Any:
+    facts, rows = p10(), out_of_reach()
+    found = {
+        f"np.unwrap: {facts['left']} of {facts['count']} samples": np.unwrap(rows[:, ROW], axis=0),
+        f"follow: {facts['there']} of {facts['count']} samples": follow(IRB140, rows, ROW),
+    }
+    fig = figure(
+        f"Joint 3 against the number of the sample. {'; '.join(found)} usable. The curve of "
+        "np.unwrap ends at the gap; that of follow goes on behind it.",
+        height=3,
     )
+    for ax, (title, q) in zip(fig.subplots(1, 2, sharey=True), found.items(), strict=True):
+        one = {"joint 3": q[:, 2] / deg}
+        curves(ax, np.arange(len(q)), one, xlabel="sample", ylabel="q3, °", title=title)
+        ax.set_xlim(0, len(q))
+    fig.tight_layout()
+    return fig

@@ -274,10 +274,15 @@ def p9() -> dict[str, Any]:
     return facts | {"right": closest(guesses, begins)}
 
 
+def out_of_reach() -> Floats:
+    """The rows of `ik` for two straight motions that meet at a point out of reach."""
+    return IRB140.ik(blend(START, pose(900, -100, 800, 45, [0, 1, 0]), GOAL, 0.0, S))
+
+
 @cache
 def p10() -> dict[str, Any]:
-    far = pose(900, -100, 800, 45, [0, 1, 0])
-    rows = IRB140.ik(blend(START, far, GOAL, 0.0, S))
+    rows = out_of_reach()
+
     there = np.isfinite(rows[:, ROW]).all(axis=-1)
     missing = np.flatnonzero(~there)
     left = int(np.isfinite(np.unwrap(rows[:, ROW], axis=0)).all(axis=-1).sum())

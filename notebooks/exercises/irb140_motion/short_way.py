@@ -165,6 +165,21 @@ def nearest_or_q1(q0: Floats, q1: Floats, limits: Floats) -> Floats:
     return np.where(inside(near, limits), near, q1)
 
 
+def one_turn_back(q0: Floats, q1: Floats, limits: Floats) -> Floats:
+    """The nearest values, one turn away where they are outside the limits."""
+    near, (low, high) = wrapped(q1, q0), limits.T
+    moved: Floats = near + TURN * (near < low - SLACK) - TURN * (near > high + SLACK)
+    return moved
+
+
+def down_then_up(q0: Floats, q1: Floats, limits: Floats) -> Floats:
+    """The nearest values, moved below the upper limits and then above the lower ones."""
+    near, (low, high) = wrapped(q1, q0), limits.T
+    near = near - TURN * (near > high + SLACK)
+    moved: Floats = near + TURN * (near < low - SLACK)
+    return moved
+
+
 def pinned(q0: Floats, q1: Floats, s: Floats, limits: Floats) -> Floats:
     end = short_end(q0, q1, limits)
     motion = straight(q0, end, s)
