@@ -5,8 +5,9 @@ import pytest
 from matplotlib.figure import Figure
 from matplotlib.text import Text
 
+from robokin import IRB140, deg
 from robokin.course import book
-from robokin.show import Sketch
+from robokin.show import Sketch, plot_postures
 from robokin.show.palette import GRID
 
 
@@ -56,3 +57,32 @@ def test_line_stops_at_a_word_of_a_sketch():
     for text in sketch.ax.texts[1:]:
         left, low, right, high = np.round(Text.get_window_extent(text).extents).astype(int)
         assert right - left > 10 and not red[low + 1 : high - 1, left + 1 : right - 1].any()
+
+
+@pytest.mark.parametrize("joint", range(6))
+def test_first_and_last_posture_are_named_where_they_differ(joint):
+    """Also if only the wrist moves; joint 6 moves no point of the arm."""
+    q = np.zeros((21, 6))
+    q[:, 4] = 30 * deg
+    q[:, joint] += np.linspace(0, 60, 21) * deg
+    figure = plot_postures(IRB140, q)
+    figure.canvas.draw()
+    centres = {
+        text.get_text(): Text.get_window_extent(text).get_points().mean(axis=0)
+        for text in figure.axes[0].texts
+    }
+    letters = [centres[each] for each in "xyz" if each in centres]
+    assert len(letters) >= 2
+    assert ("first" in centres) == ("last" in centres) == (joint < 5)
+    if joint in (3, 4):
+        for name in ("first", "last"):
+            assert np.linalg.norm(centres[name] - letters, axis=-1).min() < 120
+
+
+def test_two_postures_with_one_flange_are_told_apart():
+    rows = IRB140.ik(IRB140.fk(np.array([0, 20, -30, 20, 40, 0]) * deg))
+    names = [
+        {text.get_text() for text in plot_postures(IRB140, rows[::2][:count]).axes[0].texts}
+        for count in (1, 2, 4)
+    ]
+    assert [{"first", "last"} <= each for each in names] == [False, True, False]
