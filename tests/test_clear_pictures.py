@@ -37,6 +37,7 @@ from robokin.show import (
     motor_explorer,
     movement_explorer,
     paths_explorer,
+    rotation_explorer,
     target_explorer,
     tour_explorer,
 )
@@ -103,13 +104,18 @@ def two_tasks():
     return animate([LEVERS] * 2, t, [q, q], slider=("end", [0, 1]), joints=[], quantities=watched)
 
 
+def turned():
+    """The tip of v is in the lower right corner."""
+    return rotation_explorer(0, axis=(-0.8, -0.6, 0), v=(0.09, -0.02, -0.08))
+
+
 def chain():
     return joint_explorer(turning_base(LEVERS), np.array([0, 100, 110, 120]) * deg)
 
 
 @pytest.mark.parametrize("end", ["min", "max"])
 @pytest.mark.parametrize("width", PHONE)
-@pytest.mark.parametrize("view", [two_tasks, chain])
+@pytest.mark.parametrize("view", [two_tasks, chain, turned])
 def test_directions_of_the_base_are_apart_from_the_arm(page, tmp_path, view, width, end):
     shown(page, view(), tmp_path, width, end, "", LINES)
     lines = page.evaluate("document.querySelector('canvas').lines")
@@ -511,3 +517,18 @@ def test_lost_steps_are_written_beside_the_curves(page, tmp_path, width, pulses)
     page.evaluate(NEXT)
     covered = page.evaluate("covered")
     assert covered and not any(pixels for _, pixels in covered), covered
+
+
+@pytest.mark.parametrize("width", [*PHONE, 914])
+@pytest.mark.parametrize("end", ["min", "max", "none"])
+def test_letters_of_v_and_its_image_are_beside_their_rings(page, tmp_path, end, width):
+    """Also where both tips are at one point, so that one ring makes room for the other."""
+    view = rotation_explorer(120 * deg, axis=(0.6, 0, 0.8), v=(0.1, 0, 0))
+    shown(page, view, tmp_path, width, end, "", RECORD)
+    [words, handles] = page.evaluate("[canvasWords()[0].words, canvasWords()[0].handles]")
+    rings = [np.array([left + wide / 2, top + high / 2]) for left, top, wide, high in handles]
+    for own, text in enumerate(["q v q*", "v"]):
+        [[left, top, wide, high]] = [word["box"] for word in words if word["text"] == text]
+        nearest = [np.clip(ring, [left, top], [left + wide, top + high]) for ring in rings]
+        far = np.linalg.norm(np.subtract(nearest, rings), axis=-1)
+        assert np.argmin(far) == own and far[own] < handles[own][2] / 2 + 18, (text, far)

@@ -11,7 +11,7 @@ from .._arrays import Bools, Floats, Ints
 from ..arms.arm import Arm, ClosedFormArm
 from ..arms.branches import unwrapped
 from ..motion.recording import Recording
-from ..units import mm
+from ..units import deg, mm
 from .camera import flange
 from .numbers import TIE, rounded, tidy
 from .page import Flaws, Greatest, PageArm, Slider, Switch, Unit
@@ -43,15 +43,15 @@ def greatest(track: Recording, units: Floats, length: str, decimals: Sequence[in
     }
 
 
-def sampled(t: Floats) -> str:
+def sampled(t: Floats, leaps: bool = False) -> str:
     """Say which samples the greatest values come from, since values between the samples are not
-    included.
+    included; with `leaps`, also that jumps of position are not included.
     """
     least, most = np.diff(t).min(), np.diff(t).max()
-    apart = "every" if most - least < 1e-3 * most else "at most"
-    return f"greatest values of the {len(t)} samples, {apart} {tidy(most, 6):.4g} s" + (
-        " apart" if apart == "at most" else ""
-    )
+    even = most - least < 1e-3 * most
+    step = f"every {tidy(most, 6):.4g} s" if even else f"at most {tidy(most, 6):.4g} s apart"
+    rest = ", without the jumps in position" if leaps else ""
+    return f"greatest values of the {len(t)} samples, {step}{rest}"
 
 
 def closest(arm: Arm, q: Floats, via: Floats, unit: float) -> list[list[float] | None]:
@@ -127,6 +127,7 @@ def flaws(track: Recording, kept: Ints, units: Floats, length: str) -> Flaws:
     jumps: dict[int, list[Any]] = {}
     leaps: dict[int, list[Any]] = {}
     notes: dict[int, list[str]] = {}
+    short: dict[tuple[int, float], str] = {}  # of the jumps by more than half a turn
     arm, count = track.arm, len(track.t)
 
     def amount(value: float, j: int, per: str = "") -> str:
@@ -148,6 +149,11 @@ def flaws(track: Recording, kept: Ints, units: Floats, length: str) -> Flaws:
             j = int((abs(jump.by) / units).argmax())  # the joint with the largest jump
             words = what.format(j=j + 1, by=amount(jump.by[j], j, per))
             marks.setdefault(jump.motion[0], []).append([tidy(jump.time, 6), words])
+            rest = 360 - abs(jump.by[j]) / deg
+            if found is track.leaps and not arm.prismatic[j] and -TIE < rest < 180:
+                short[jump.motion[0], marks[jump.motion[0]][-1][0]] = (
+                    f" (the short way round: {max(tidy(rest, 1), 0):.1f}°)"
+                )
     for c in range(len(track)):
         for j, excess in enumerate(track.excess[c].T):
             if (excess > 0).any():
@@ -172,7 +178,9 @@ def flaws(track: Recording, kept: Ints, units: Floats, length: str) -> Flaws:
             f"The speed jumps at {times} s{more}, so there is no finite acceleration."
         )
     for c, marked in leaps.items():
-        first = "; ".join(f"{text} at {when:.2f} s" for when, text in marked[:3])
+        first = "; ".join(
+            f"{text} at {when:.2f} s{short.get((c, when), '')}" for when, text in marked[:3]
+        )
         more = f"; and {len(marked) - 3} more" if len(marked) > 3 else ""
         notes.setdefault(c, []).append(f"Jumps in position: {first}{more}.")
 

@@ -212,7 +212,7 @@ def page_data(
         "quantities": [quantity_panel(name, x, kept) for name, x in quantities.items()],
         "watch": watch,
         "decimals": digits,
-        "sampled": findings.sampled(t),
+        "sampled": findings.sampled(t, any(arm["leaps"] for arm in drawn)),
         "arms": drawn,
     }
 

@@ -167,7 +167,7 @@ def plot_postures(
     q        (samples, n): the whole path, in as many samples as are known. The tool's path is drawn
              through all samples, the first and last posture boldly, and up to seven postures
              between them faintly. NaN rows are left out. If the flange does not move (as in the
-             rows of `ik`), up to nine postures are drawn in the same style.
+             rows of `ik`), more than two postures, up to nine, are drawn in the same style.
     targets  a list of Transforms (one: target; two: start, goal; three: start, via, goal), or a
              dict that maps names to Transforms
     alt      the alternative text, if the numbers alone do not say enough
@@ -190,14 +190,16 @@ def plot_postures(
     if moves:
         scene.trace(tool.translation)
         scene.triad(tool[first], length=0.07 * size, width=2.4)
-        # The names "first" and "last" are where the two postures differ most, on the half of the
-        # arm next to the base, since the tool has labels of its own.
-        half = slice(1, len(arm.links) + 1)
-        ends = arm_points(arm, q[[first, last]])[:, half]
-        where = np.linalg.norm(ends[1] - ends[0], axis=-1).argmax()
+    # The names "first" and "last" are where the two postures differ most, on the half of the arm
+    # next to the base, since the tool has labels of its own; or beyond, if only the rest moves.
+    ends = arm_points(arm, q[[first, last]])
+    apart = np.linalg.norm(ends[1] - ends[0], axis=-1)
+    half = apart[: len(arm.links) + 1]
+    where = (half if half.max() > 1e-3 * size else apart).argmax()
+    if (moves or len(exists) == 2) and apart[where] > 1e-3 * size:
         scene.label("first", ends[0, where], SOFT)
         scene.label("last", ends[1, where])
-    scene.arm(arm, q[last], "last" if moves or len(exists) == 1 else "first")
+    scene.arm(arm, q[last], "last" if moves or len(exists) <= 2 else "first")
     scene.triad(tool[last], length=0.07 * size, width=3.2, letters=True)
     for name, pose in targets.items():
         scene.triad(pose, name, width=1.4)

@@ -128,4 +128,5 @@ class Sketch(Figure):
             color=INK,
             fontsize=12,
             zorder=4,
+            bbox={"facecolor": PAPER, "edgecolor": "none", "pad": 0},  # no line goes through it
         )

@@ -29,8 +29,8 @@ from .shared import L4, Z
 
 def p1_view() -> Any:
     bent = np.zeros((41, 6))
-    bent[:, 4] = np.linspace(0, 90, 41) * deg
-    return plot_postures(IRB140, bent, title="Joint 5 swings the flange on an arc of 65 mm")
+    bent[:, 4] = np.linspace(0, 45, 41) * deg
+    return plot_postures(IRB140, bent, title="Joint 5 swings the flange on an arc of radius 65 mm")
 
 
 def p2_view() -> str:
@@ -44,7 +44,7 @@ def p2_view() -> str:
 def p3_view() -> Any:
     rows = IRB140.ik(away_pose())[[IRB140.branch(+1, 1, 1), IRB140.branch(-1, 1, 1)]]
     title = f"Joint 1 at {signed(rows[0, 0])} and at {signed(rows[1, 0])}: one plane, two fronts"
-    return plot_postures(IRB140, rows, targets=[away_pose()], title=title)
+    return plot_postures(IRB140, rows, title=title)
 
 
 def p4_view() -> str:

@@ -42,10 +42,11 @@ def draw(ax: Any, q: Floats, label: str, **style: Any) -> None:
     ax.plot(*points.T, marker="o", mfc=PAPER, ms=5, lw=2, label=label, **style)
 
 
-def mark_H(ax: Any, place: Any) -> None:
+def mark_H(ax: Any, place: Any, away: tuple[float, float] = (7, 4)) -> None:
     """The cross of the obstacle, with its letter."""
+    box = {"facecolor": PAPER, "edgecolor": "none", "pad": 0}
     ax.plot(*place, "X", color=INK, ms=9, zorder=6)
-    ax.annotate("H", place, (7, 4), textcoords="offset points", zorder=6)
+    ax.annotate("H", place, away, textcoords="offset points", zorder=6, bbox=box)
 
 
 def plane(ax: Any, low: tuple[float, float], high: tuple[float, float], title: str) -> None:
@@ -175,7 +176,7 @@ def p5_view() -> Any:
     ax.plot(*ways.T, color=FIRST, lw=2, label="gripper")
     angle = np.linspace(0, 2 * np.pi, 100)
     ax.plot(PASSED[0] + WANTED * np.cos(angle), PASSED[1] + WANTED * np.sin(angle), color=REMARK)
-    mark_H(ax, PASSED)
+    mark_H(ax, PASSED, (-24, -4))  # outside the circle
     plane(ax, (-1.2, -0.1), (2.9, 2.2), "The gripper goes round H, but lever AK sweeps across it")
     ax.legend(loc="upper right", fontsize=8)
     fig.tight_layout()

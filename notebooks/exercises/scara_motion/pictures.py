@@ -30,7 +30,7 @@ def p1_view() -> Any:
             q = joints(lin(start, GOAL, FEW / 20))[:, i] / (mm if i == 3 else deg)
             ax.plot(FEW, q, style, color=JOINT_STYLES[i]["color"], lw=2)
             if i == 2:
-                ax.text(0.6, q[0] + 14, f"{angle}°", fontsize=10)
+                ax.text(0.6, q[0] + 18, f"{angle}°", fontsize=10)
         ax.set(xlabel="t, s", title=f"q{i + 1}, {'mm' if i == 3 else '°'}")
     fig.suptitle("Three tool angles at the start (0°, 45°, 90°): only joint 3 differs")
     fig.tight_layout()
@@ -165,7 +165,7 @@ def p7_view() -> Any:
         shown = np.where(abs(np.diff(seen, append=seen[-1])) > 180, np.nan, seen)
         caught = abs(seen) > limit
         ax.plot(S, q, "--", color=SOFT, lw=1.5)
-        ax.text(0.97, q[-1] - 75, "as it turns", ha="right", va="top", color=REMARK)
+        ax.text(0.97, q[-1] - 110, "as it turns", ha="right", va="top", color=REMARK)
         ax.plot(S, shown, color=JOINT_STYLES[i]["color"], lw=2)
         ax.text(0.97, seen[-1] - 110, "wrapped", ha="right", va="top")
         if caught.any():

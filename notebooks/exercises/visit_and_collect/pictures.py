@@ -24,7 +24,7 @@ def p1_view() -> Any:
     title = "Link 1 lies flat, and link 2 hangs down"
     sketch = Sketch(says, title=title, **SIDE | {"x": "y", "height": 3.6})
     sketch.levers([(0, 0), (L1, 0), (L1, -L2)], ["O1", "O2", "tool"])
-    sketch.ax.axhline(0, color=SOFT, lw=1)
+    sketch.ax.axhline(0, color=SOFT, lw=1, zorder=1)
     sketch.ax.margins(0.22)
     return sketch
 
@@ -36,7 +36,7 @@ def p2_view() -> Any:
     sketch = Sketch(says, title=title, height=3.6, **SIDE)
     sketch.levers([(0, 0), (L1, 0), (L1 + L2, 0)], ["O1", "", "tool"])
     sketch.ax.text(L1, 0.25, "O2", ha="center", fontsize=12)
-    sketch.levers([(L1, 0), (L1, -L2)], dashed=True)
+    sketch.levers([(0, 0), (L1, 0), (L1, -L2)], dashed=True)
     sketch.angle((L1, 0), -pi / 2, 0, "−q3", radius=1.5)
     return sketch
 
@@ -119,7 +119,7 @@ def p7_view() -> Any:
     title = f"The elbow lies on the floor, the tool is {height:g} m above the origin"
     sketch = Sketch(says, title=title, **SIDE)
     sketch.levers([(0, 0), (-LOW1, 0), (0, height)], ["O1", "O2", "tool"])
-    sketch.ax.axhline(0, color=SOFT, lw=1)
+    sketch.ax.axhline(0, color=SOFT, lw=1, zorder=1)
     sketch.ax.axvline(0, color=SOFT, lw=1, ls=":")
     sketch.ax.text(-0.1, 0.15 * height, "axis 1", ha="right")
     sketch.ax.margins(0.22)

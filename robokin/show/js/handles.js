@@ -87,7 +87,7 @@ export function handleLayer(canvas, camera, hold, changed) {
     /**
      * Moves the handles to their places; call it after every redraw.
      * @param {Camera} [cam]
-     * @returns {Box[]}  the boxes that they cover
+     * @returns {Box[]}  the boxes that they cover, in the order of the handles
      */
     place(cam = camera()) {
       /** @type {Pixel[]} */
@@ -99,14 +99,15 @@ export function handleLayer(canvas, camera, hold, changed) {
       for (const {node, group = ""} of handles) node.hidden = !chooser.stands(group);
       // The grabbed handle keeps its offset, so that it stays under the pointer; the others make
       // room.
-      const first = handles
-        .filter(({node}) => !node.hidden)
-        .sort((a, b) => Number(b.id === held) - Number(a.id === held));
+      const seen = handles.filter(({node}) => !node.hidden),
+        first = [...seen].sort((a, b) => Number(b.id === held) - Number(a.id === held));
       for (const handle of first)
         taken.push(placed(handle, cam, handle.id === held ? null : taken, [width, height], big));
       for (const {node, tell} of handles) tell?.(layer, node.matches(":focus"));
       const size = big ? 44 : 26;
-      return taken.map(([x, y]) => [x - size / 2, y - size / 2, size, size]);
+      return seen
+        .map(handle => taken[first.indexOf(handle)])
+        .map(([x, y]) => [x - size / 2, y - size / 2, size, size]);
     },
   };
 }

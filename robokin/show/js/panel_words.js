@@ -66,7 +66,8 @@ function cover({lines, near}, ys, times, x, [left, right]) {
 
 /**
  * The text of at most three marks: next to their lines, almost clear of the curves and clear of the
- * limits. The sentences above the panels tell what has no such place.
+ * limits; without the name of the arm where there is room only for the rest. The sentences above
+ * the panels tell what has no such place.
  * @param {Context} g
  * @param {Mark[]} marks
  * @param {Place} x
@@ -78,19 +79,21 @@ function noted(g, marks, x, [left, right, top, bottom], cost) {
   const notes = [];
   g.font = font(11, 600);
   for (const {time, text} of marks) {
-    if (!text || notes.length > 2) continue;
-    const w = g.measureText(text).width,
-      taken = notes.map(([, place]) => place);
     /** @type {?Box} */
     let best = null;
     let least = MOST;
-    for (let y = top + 5; y + 11 < bottom; y += 6) {
-      const over = cost(y, 11);
-      for (const px of [Math.min(x(time) + 6, right - w), Math.max(left, x(time) - w - 6)])
-        if (over(px, w) < least && !hit([px, y, w, 11], taken))
-          [best, least] = [[px, y, w, 11], over(px, w)];
+    for (const words of [text, text.replace(/^.*: /, "")]) {
+      if (!text || best || notes.length > 2) continue;
+      const w = g.measureText(words).width,
+        taken = notes.map(([, place]) => place);
+      for (let y = top + 5; y + 11 < bottom; y += 6) {
+        const over = cost(y, 11);
+        for (const px of [x(time) + 6, x(time) - w - 6])
+          if (px > left && px + w < right && over(px, w) < least && !hit([px, y, w, 11], taken))
+            [best, least] = [[px, y, w, 11], over(px, w)];
+      }
+      if (best) notes.push([words, best, colors.alarm, 11, "600"]);
     }
-    if (best) notes.push([text, best, colors.alarm, 11, "600"]);
   }
   return notes;
 }

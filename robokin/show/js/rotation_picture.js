@@ -50,10 +50,18 @@ export function rotationPicture(data) {
       for (const arrow of arrows) drawArrow(g, cam, arrow);
       spot(g, cam.to([0, 0, 0]), 3.5, colors.ink);
       write(g, scale, 10, h - 8, colors.soft, 12);
-      compass(g, cam, [w - 34, h - 34]);
-      const labels = arrows.map(({tip, name, color}) => ({text: name, at: cam.to(tip), color}));
+      // a ring may have made room for the other; its letter is beside it, and q v has no ring
+      const boxes = now.handles(cam),
+        [whole, v] = boxes.map(([x, y, wide, high]) => [x + wide / 2, y + high / 2]),
+        rings = [v, null, whole];
+      const labels = [0, 2, 1].map(k => ({
+        text: arrows[k].name,
+        at: /** @type {Pixel} */ (rings[k] ?? cam.to(arrows[k].tip)),
+        color: arrows[k].color,
+      }));
       labels.push({text: "n", at: cam.to(high), color: colors.soft});
-      placeLabels(g, labels, [4, 4, w - 8, h - 28], now.handles(cam));
+      placeLabels(g, labels, [4, 4, w - 8, h - 28], boxes);
+      compass(g, cam, [0, 0, w, h]);
       return true;
     },
   };

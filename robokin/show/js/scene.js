@@ -17,7 +17,7 @@ import {
 } from "./canvas.js";
 import {frames, origin} from "./kinematics.js";
 import {kinds} from "./kinds.js";
-import {freest, placeLabels} from "./labels.js";
+import {placeLabels} from "./labels.js";
 import {compass} from "./triad.js";
 
 /** @import {PageLink, PageScene, PageThing, Unit} from "./page.js" */
@@ -307,14 +307,7 @@ function drawSpace(pen, arms, [x, y, w, h], named) {
   for (const {cam, labels: own = []} of all)
     for (const label of own) labels.push({weight: "600", ...label, at: cam.to(label.at)});
   placeLabels(g, labels, [x + 4, y + 24, w - 8, h - 46]);
-  const [right, high] = [x + w - 34, y + 60];
-  /** @type {Pixel[]} */
-  const corners = [
-    [right, y + h - 34],
-    [right, high],
-    [x + 34, high],
-  ];
-  compass(g, cam, freest(corners)); // last: labels need the room more
+  compass(g, cam, [x, y, w, h]); // last: labels need the room more
 }
 
 /**

@@ -1,10 +1,11 @@
-// Draws the axes of a frame, and the directions of the base's axes in a corner.
+// Draws the axes of a frame, and the directions of the base's axes in a free corner.
 
 import {colors, stroke, write} from "./canvas.js";
 import {dot, origin, plus} from "./kinematics.js";
+import {freest} from "./labels.js";
 
 /** @import {Camera} from "./camera.js" */
-/** @import {Context, Pixel} from "./canvas.js" */
+/** @import {Box, Context, Pixel} from "./canvas.js" */
 /** @import {Label} from "./labels.js" */
 
 /** The names of the axes of a frame, and of their colours. */
@@ -46,12 +47,19 @@ export function triad(g, cam, pose, length, width, alpha) {
 }
 
 /**
- * Draws the directions of the base's x, y and z in a corner.
+ * Draws the directions of the base's x, y and z in the corner of a cell where they hide least of
+ * what is already drawn.
  * @param {Context} g
  * @param {Camera} cam
- * @param {Pixel} corner
+ * @param {Box} cell
  */
-export function compass(g, cam, [x, y]) {
+export function compass(g, cam, [left, top, wide, tall]) {
+  const [right, high] = [left + wide - 34, top + 60],
+    [x, y] = freest([
+      [right, top + tall - 34],
+      [right, high],
+      [left + 34, high],
+    ]);
   [
     [1, 0, 0],
     [0, 1, 0],

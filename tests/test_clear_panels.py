@@ -1,0 +1,62 @@
+"""The words of a player's panels and table are next to what they name, and say what is true."""
+
+import re
+
+import numpy as np
+import pytest
+import test_player
+from canvas_words import LINES, RECORD
+from test_clear_pictures import PHONE, shown
+
+from robokin import deg, two_link
+from robokin.show import animate
+from robokin.show.palette import PAGE
+
+page = test_player.page
+ARM = two_link(2.5, 2.5)
+
+
+def teeth():
+    """Joint 1 of one arm jumps where t² is a whole number, as in lab 12."""
+    t = np.linspace(1, 3.5, 500)
+    smooth = np.stack([2 - 0.4 * t, 0.4 * t - 2.5], axis=-1)
+    jumping = smooth - np.outer(0.1 * (t**2 % 1), [1, 0])
+    return animate([ARM] * 2, t, [jumping, smooth], names=["with (int)", "with double"])
+
+
+@pytest.mark.parametrize("width", [*PHONE, 1366])
+def test_text_of_a_jump_is_beside_its_line(page, tmp_path, width):
+    """Where there is no room for the name of the arm, it is left out: the sentence above has it."""
+    shown(page, teeth(), tmp_path, width, "none", "none", LINES, RECORD)
+    [lines, words] = page.evaluate(
+        "[document.querySelectorAll('canvas')[1].lines, canvasWords()[1].words]"
+    )
+    alarm = PAGE["alarm"][0].lower()
+    marks = [line["points"][0][0] for line in lines if line["color"] == alarm and line["dash"]]
+    texts = [word for word in words if "jumps by" in word["text"]]
+    assert len(texts) == 3
+    for word, x in zip(texts, marks, strict=False):
+        left, _, wide, _ = word["box"]
+        assert 5 < max(left - x, x - left - wide) < 7, word["text"]
+    assert texts[0]["text"].startswith("with (int): ") or width < 390
+
+
+@pytest.mark.parametrize("size", [-302.1, -180.5, -20, 179, 302.1, 360])
+def test_jump_by_more_than_half_a_turn_has_its_short_way(size):
+    """A wrapped angle may jump by almost a whole turn where the arm moves little."""
+    t = np.linspace(0, 2, 401)
+    q = np.outer(t > 1.001, [0, 1]) * size * deg
+    [note] = animate(ARM, t, q).data["arms"][0]["notes"]["0"][-1:]
+    by, *short = map(float, re.findall(r"([\d.]+)°", note))
+    turn = np.exp(1j * q[-1, 1])
+    assert by == pytest.approx(abs(size)) and bool(short) == (abs(size) > 180)
+    assert not short or short == [pytest.approx(abs(np.angle(turn, deg=True)), abs=0.05)]
+
+
+def test_table_says_that_jumps_in_position_are_left_out():
+    t = np.linspace(0, 2, 401)
+    steady = np.outer(t, [0.1, 0.2])
+    leaping = steady + np.outer(t > 1.001, [0, 1])
+    said = [animate(ARM, t, q).data["sampled"] for q in (steady, leaping)]
+    assert said[1] == said[0] + ", without the jumps in position"
+    assert animate([ARM] * 2, t, [steady, leaping]).data["sampled"] == said[1]
