@@ -380,8 +380,8 @@ def test_jump_of_both_angles_at_the_smallest_radius_is_as_stated():
     jumps = np.flatnonzero(abs(np.diff(q[:, 1])) > 90)
     assert len(jumps) == 2
     told = flat("12", "sides-drag")
-    line, low, high, turn = numbers(
-        r"the red line says (\S+)°, from (\S+)° to (\S+)°; the shorter turn is (\S+)°", told
+    low, high, line, turn = numbers(
+        r"\$q_2\$ jumps from (\S+)° to (\S+)°, by (\S+)° or, the short way round, by (\S+)°", told
     )
     (first,) = numbers(r"\$q_1\$ jumps, too, by (\S+)°\.", told)
     for k in jumps:
