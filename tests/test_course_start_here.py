@@ -10,7 +10,7 @@ import pytest
 from conftest import NOTEBOOKS
 from lab_sizes import measure
 
-from robokin import IRB140, deg, mm, ptp, within
+from robokin import IRB140, PUMA560, SCARA, deg, mm, ptp, within
 from robokin.course import book, check, solution
 from robokin.course.questions import filled
 
@@ -66,12 +66,34 @@ def test_every_posture_that_solves_the_task_passes(answer):
         (45 * deg, "another kind or shape"),
         ([np.nan] * 6, "another kind or shape"),
         (["45", "-17", "a", "0", "30", "0"], "another kind or shape"),
+        ((45, -17), "another kind or shape"),
+        (np.array([425, 425, 600]) * mm, "a place instead of angles"),
+        ((425, 425, 600), "a place instead of angles"),
     ],
 )
 def test_mistakes_in_the_posture_are_named(answer, name):
     verdict = check("start_here.1", answer)
     assert verdict.answered and not verdict.holds and verdict.mistake == name, verdict
     assert verdict.says and verdict.points < 1
+
+
+@pytest.mark.parametrize(("unit", "shown"), [(deg, "[40°, −17°, "), (1, "[2292°, −974°, ")])
+def test_the_case_shows_the_angles_in_degrees(unit, shown):
+    """So that an answer without `deg` looks as wrong as it is."""
+    verdict = check("start_here.1", np.array([40, -17, -10, 0, 30, 0]) * unit)
+    assert f"your answer is {shown}" in verdict.case
+
+
+@pytest.mark.parametrize("seed", range(3))
+def test_a_right_answer_is_told_where_the_tool_is(seed):
+    q = searched(seed)
+    x, y, z = place(q)
+    says = f"The tool is at x = {x:.0f} mm, y = {y:.0f} mm, z = {z:.0f} mm."
+    assert says in check("start_here.1", q).says
+
+
+def test_a_place_meets_no_condition():
+    assert check("start_here.1", np.array([425, 425, 600]) * mm).points == 0
 
 
 def test_one_failed_condition_of_three_costs_a_third():
@@ -136,6 +158,25 @@ def test_joint_5_exceeds_its_limit_on_the_lines_that_the_lab_names():
         re.search(r"At (\d+) mm and above, joint 5 exceeds its limit", cell("slider-look"))[1]
     )
     assert past == (names["heights"] >= first).tolist() and 0 < sum(past) < len(past)
+
+
+@pytest.mark.parametrize("arm", [IRB140, PUMA560, SCARA])
+def test_only_the_joints_that_the_lab_names_keep_the_height(arm):
+    """Joint 1 of all three arms, and all joints of the SCARA except the one that slides. (Joints 4
+    to 6 of the PUMA 560 do not move its flange at all, since it is at the wrist centre.)
+    """
+    assert "the PUMA 560 and the SCARA, joint 1 also turns the whole arm" in cell("hand-in")
+    assert "Only joint 4, which slides" in cell("other-arm-look")
+    low, high = arm.limits.T
+    q, other = np.random.default_rng(1).uniform(low, high, (2, 200, len(low)))
+    keeps = []
+    for k in range(len(low)):
+        moved = q.copy()
+        moved[:, k] = other[:, k]
+        change = arm.fk(moved).translation[:, 2] - arm.fk(q).translation[:, 2]
+        keeps.append(bool(abs(change).max() < 1e-9))
+    assert keeps[:3] == ([True] * 3 if arm is SCARA else [True, False, False])
+    assert arm is not SCARA or not keeps[3]
 
 
 def test_joint_6_is_the_fastest_as_stated():

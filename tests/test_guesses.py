@@ -220,10 +220,11 @@ def test_copies_have_no_guesses_and_plain_shells_save_none(tmp_path, monkeypatch
 def test_guesses_are_saved_next_to_the_current_notebook(tmp_path):
     one = notebook(tmp_path / "labs" / "one.ipynb", ids=[P1])
     said = {"n": 3, "path": "labs/one.ipynb", "guesses": [[P1, "b", at(1)]]}
-    assert hub._told(said, one) == {"n": 3} and chosen(one) == {P1: ["b"]}
+    assert hub._told(said, one) == {"n": 3, "first": {P1: "b"}} and chosen(one) == {P1: ["b"]}
     moved = one.rename(tmp_path / "labs" / "two.ipynb")
-    assert hub._told(said | {"path": "labs/two.ipynb"}, one) == {"n": 3}
-    assert chosen(moved) == {P1: ["b"]}
+    later = {"path": "labs/two.ipynb", "guesses": [[P1, "c", at(2)]]}
+    assert hub._told(said | later, one) == {"n": 3, "first": {P1: "b"}}, "b is the first guess"
+    assert chosen(moved) == {P1: ["b", "c"]}
     for wrong in (
         {"path": "labs/none.ipynb"},
         {"path": None},
@@ -233,7 +234,7 @@ def test_guesses_are_saved_next_to_the_current_notebook(tmp_path):
         {"path": "labs/two.ipynb", "guesses": None},
     ):
         assert hub._told(said | wrong, one)["error"]
-    assert chosen(moved) == {P1: ["b"]}
+    assert chosen(moved) == {P1: ["b", "c"]}
 
 
 # --- Guesses in a report --------------------------------------------------------------------------
@@ -411,6 +412,17 @@ def test_each_guess_goes_to_the_kernel_of_its_notebook(page):
     answer(two, "d", again=True)
     assert made_in(page)[0] == [kept_as(P1, "b"), kept_as(P1, "bd")]
     assert page.evaluate("sent[0][1].path") == "labs/b.ipynb"
+
+
+def test_the_question_names_the_first_guess_even_if_another_browser_made_it(page):
+    (one,) = shown(page, "Path: a.ipynb")
+    page.evaluate(HUBS, [{"path": "a.ipynb", "localPath": "a.ipynb"}])
+    [first] = kept_as(P1, "b")
+    for n, choice in enumerate("cdb", 1):
+        answer(one, choice, again=n > 1)
+        page.evaluate("([n, first]) => hear[0]({n, first})", [n, {P1: first}])
+        more = "" if choice == "b" else " Your first guess, b, counts."
+        expect(told(one)).to_have_text(f"{KEPT}{more}")
 
 
 def test_guess_from_a_page_without_a_path_goes_to_the_only_kernel(page):

@@ -342,15 +342,20 @@ def own_notebook() -> Path | None:
 
 def _told(message: Any, own: Path) -> dict[str, Any]:
     """Return the reply to a message from the page. The message is {"n": its number, "path": the
-    notebook's path in the page, or None, "guesses": [[prediction, choice, time], ...]}.
+    notebook's path in the page, or None, "guesses": [[prediction, choice, time], ...]}. The reply
+    contains the saved first guess at each of these predictions, since it may come from another
+    browser.
     """
     try:
         made = [(_id(name), _choice(choice), time) for name, choice, time in message["guesses"]]
-        keep(_called(message["path"], own), made)
+        path = _called(message["path"], own)
+        keep(path, made)
+        saved = read_guesses(path) or {}
+        first = {name: saved[name][0][0] for name, _, _ in made if name in saved}
     except Exception as error:  # the page shows the error; here, it would go unnoticed
         reason = getattr(error, "strerror", None) or error
         return {"n": message["n"], "error": str(reason)}
-    return {"n": message["n"]}
+    return {"n": message["n"], "first": first}
 
 
 def _called(path: str | None, own: Path) -> Path:

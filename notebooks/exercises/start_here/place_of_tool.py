@@ -1,5 +1,6 @@
 """The conditions of exercise 1; its text is in the Markdown file beside it."""
 
+from contextlib import suppress
 from typing import Any
 
 import numpy as np
@@ -14,16 +15,50 @@ from .shared import minus, place
 COUNT = 3
 HEIGHT = 600  # mm
 NEAR = 5  # mm: whole degrees are enough, since one degree of joint 2 is about 9 mm
+A_PLACE = (
+    "a place instead of angles",
+    "These three numbers are a place. Give the six joint angles that bring the tool there: "
+    "`my_posture = yours`.",
+)
+
+
+class Angles:
+    """Angles in radians that are shown in degrees."""
+
+    def __init__(self, q: Any) -> None:
+        self.q = q
+
+    def __repr__(self) -> str:
+        return minus(f"[{', '.join(f'{x:.4g}°' for x in np.round(self.q / deg, 6) + 0.0)}]")
+
+
+def plain(answer: Any) -> Any:
+    """Six angles in degrees, which is what the case shows."""
+    with suppress(TypeError, ValueError):
+        return Angles(form(answer, None)) if np.shape(answer) == (6,) else answer
+    return answer
 
 
 def form(answer: Any, given: Any) -> Any:
-    q = np.asarray(answer, dtype=float) if np.shape(answer) == (6,) else None
+    q = np.asarray(answer, dtype=float) if np.shape(answer) in ((6,), (3,)) else None
     if q is None or not np.isfinite(q).all():
-        raise ValueError(f"wanted six angles in radians, got {in_words(answer)}")
+        raise ValueError(f"Wanted six angles in radians, q1 to q6, got {in_words(answer)}.")
     return q
 
 
+def holds(q: Any, given: Any) -> tuple[str, ...]:
+    """Where the tool is, and which joints brought it there."""
+    x, y, z = place(q)
+    return (
+        minus(f"The tool is at x = {x:.0f} mm, y = {y:.0f} mm, z = {z:.0f} mm."),
+        "Joint 1 turns the whole arm to the left or to the right; only other joints can change the "
+        "height.",
+    )
+
+
 def faults(q: Any, given: Any) -> list[Fault]:
+    if q.shape == (3,):
+        return [A_PLACE] * COUNT  # no condition holds
     if abs(q).max() > 4 * np.pi:  # two turns
         return [("degrees for radians", DEGREES)]
     found = missed(q)

@@ -5,14 +5,15 @@
 /**
  * The detail of the event "robokin-guess" of a question; the hub that handles the event cancels it.
  * `path` is the path of the notebook, or "" or null if the page does not contain it. `tell` is
- * called once, without an argument or with the reason for a failure.
- * @typedef {{path: ?string, guesses: Made[], tell: (error?: string) => void}} Offer
+ * called once, with the reason for a failure or with the saved first guesses, if they are known.
+ * @typedef {(error?: string, first?: Record<string, string>) => void} Tell
+ * @typedef {{path: ?string, guesses: Made[], tell: Tell}} Offer
  */
 /**
  * JupyterLab's context of a notebook. Other front ends have none.
  * @typedef {{path: string, localPath: string, isDisposed: boolean}} Context
  */
-/** @typedef {{n: number, error?: string}} Told */
+/** @typedef {{n: number, error?: string, first?: Record<string, string>}} Told */
 /**
  * @typedef {object} Model
  * @property {{context?: Context}} [widget_manager]
@@ -65,8 +66,8 @@ export function initialize({model}) {
   }
   hubs.add(hub);
   document.addEventListener("robokin-guess", hear);
-  model.on("msg:custom", ({n, error}) => {
-    asked.get(n)?.(error);
+  model.on("msg:custom", ({n, error, first}) => {
+    asked.get(n)?.(error, first);
     asked.delete(n);
   });
   model.on("comm_live_update", end);

@@ -139,9 +139,10 @@ class Prediction {
     const offered = {
       path: memory.path(),
       guesses: memory.read(),
-      tell: error => {
+      tell: (error, saved = {}) => {
         if (error) return this.alone(before, `: ${error}.`);
-        const first = memory.read().find(([name]) => name === data.name)?.[1] ?? this.chosen();
+        const own = memory.read().find(([name]) => name === data.name);
+        const first = saved[data.name] ?? own?.[1] ?? this.chosen();
         const same = judged(data, first) === judged(data, this.chosen());
         const counts = same ? "" : ` Your first guess, ${first.split(":")[0]}, counts.`;
         kept.textContent = `${before}Saved for your report.${counts}`;
