@@ -632,9 +632,8 @@ def test_start_frequency_and_lost_steps_are_as_stated(capsys):
     held = motor.run(np.arange(1, 49) / pace, np.ones(48), load=mNm / 1000)
     assert held.lost == 0 and motor.run(np.arange(1, 49) / 100, np.ones(48), load=mNm / 1000).lost
     for view in ("load-hand", "load-explorer"):
-        assert "motor_explorer(motor)" in cells("13")[view]
+        assert "motor_explorer(motor)" in cells("13")[view] and run("13", view)["motor"] == motor
     assert motor == made["Stepper"](rise=0), "the motor of the first view"
-    assert run("13", "load-hand")["motor"] == motor and run("13", "load-hand")["J"] == inertia
     assert repr(motor_explorer(motor)).endswith("44 steps lost.")
     _, options, _ = asked("motor_synchronisation.p10")
     assert f"loses {48 - steps(160)} of 48" in options[2].reason
@@ -648,8 +647,13 @@ def test_start_frequency_and_lost_steps_are_as_stated(capsys):
 
 def test_a_load_torque_holds_the_rotor_back_as_stated():
     """The rotor rests where the pull of the field is the load; a pulse adds 90° to the lag."""
-    held, lag = said(
-        "13", "load", r"\*load torque\* in the view below to (\d+) mN.*a lag of (\d+)°"
+    weight, of, held = said(
+        "13",
+        "load",
+        r"with (\d+) mN m .* \$M\$ is (\d+) mN m.*\*load torque\* in the view below to (\d+) mN",
+    )
+    lag, sine, pulls = said(
+        "13", "load-torque", r"The lag is (\d+)°: \$M \\sin (\d+)°\$ is (\d+) mN m"
     )
     makes, fails = said("13", "load", r"Then set (\d+) and press .* set (\d+) and press")
     least, after, step, pull, most = said(
@@ -660,6 +664,7 @@ def test_a_load_torque_holds_the_rotor_back_as_stated():
     )
     motor = run("13", "load-hand")["motor"]
     torque = 1000 * motor.torque
+    assert (weight, of, sine) == (held, torque, lag) and pulls == held
     assert torque * math.sin(math.radians(lag)) == pytest.approx(held)
     assert least == fails and step == math.degrees(motor.step)
     assert after == round(math.degrees(math.asin(fails / torque)))
@@ -684,21 +689,87 @@ def one_pulse(motor, load):
     return solve_ivp(moves, (0, 0.5), (rest, 0), rtol=1e-8, atol=1e-8).y[0, -1]
 
 
-def test_iron_rotor_loses_multiples_of_three_steps_and_resonates():
+def lost_at(motor, tempos, each):
+    """How many of 48 steps a motor loses at each of these frequencies, with `each` steps of the
+    Runge-Kutta method from pulse to pulse.
+    """
+    rows, ahead = len(motor.currents), motor.periods
+    theta = omega = np.zeros(len(tempos))
+
+    def slopes(theta, omega, row):
+        pull = motor.torque * np.sin(2 * np.pi * row / rows - ahead * theta)
+        return omega, (pull - motor.damping * omega) / motor.inertia
+
+    rest = 10 * 2 * motor.inertia / motor.damping  # s
+    spans = [(k, 1 / np.array(tempos) / each, each) for k in range(48)]
+    for row, h, count in (*spans, (48, 1e-4, math.ceil(rest / 1e-4))):
+        for _ in range(count):
+            v0, a0 = slopes(theta, omega, row)
+            v1, a1 = slopes(theta + h / 2 * v0, omega + h / 2 * a0, row)
+            v2, a2 = slopes(theta + h / 2 * v1, omega + h / 2 * a1, row)
+            v3, a3 = slopes(theta + h * v2, omega + h * a2, row)
+            theta = theta + h / 6 * (v0 + 2 * v1 + 2 * v2 + v3)
+            omega = omega + h / 6 * (a0 + 2 * a1 + 2 * a2 + a3)
+    return dict(zip(tempos, (48 - np.rint(theta / motor.step)).astype(int), strict=True))
+
+
+def test_resonance_of_the_iron_rotor_is_where_the_lab_says():
+    """It loses steps there with every step of integration; how many, depends on this step."""
     call = re.search(r"Stepper\(.*\)(?=\))", cells("13")["pull-explorer"])[0]
     motor = eval(call, {"Stepper": Stepper})
-    fast, slow = said("13", "missed-look", r"\*frequency\* in its view to (\d+), then to (\d+)")
-    many, at, few, again, none, swings = said(
+    first, last = said("13", "deeper-iron", r"\*frequency\* from (\d+) down to (\d+)")
+    low, high, below, above = said(
         "13",
-        "missed-look",
-        r"(\d+) at (\d+) pulses/s\. It also loses (\d+) at (\d+) pulses/s, but none at (\d+):.* "
-        r"swings about (\d+) times per second",
+        "deeper-iron",
+        r"every whole frequency from (\d+) to (\d+), it loses steps, in threes, .* swings (\d+) to "
+        r"(\d+) times per second",
     )
-    assert (at, again) == (fast, slow) and len(motor.currents) == 3
-    lost = {f: motor.run(np.arange(1, 49) / f, np.ones(48)).lost for f in (fast, slow, none)}
-    assert lost == {fast: many, slow: few, none: 0} and not any(n % 3 for n in lost.values())
-    free = math.sqrt(motor.periods * motor.torque / motor.inertia) / (2 * math.pi)
-    assert round(free, -1) == swings == slow
+    band = range(int(low), int(high) + 1)
+    assert len(motor.currents) == 3 and last < low < high < first
+    counts = set()
+    for each in (150, 200, 300):
+        lost = lost_at(motor, [band[0] - 1, *band, band[-1] + 1], each)
+        assert lost[band[0] - 1] == lost[band[-1] + 1] == 0
+        assert all(lost[f] > 0 for f in band) and not any(n % 3 for n in lost.values())
+        counts.add(tuple(lost.values()))
+    assert len(counts) > 1
+    assert all(motor.run(np.arange(1, 49) / f, np.ones(48)).lost > 0 for f in band)
+    spring = motor.periods * motor.torque / motor.inertia
+    slower = spring - (motor.damping / 2 / motor.inertia) ** 2
+    assert below < math.sqrt(slower) / 2 / math.pi < math.sqrt(spring) / 2 / math.pi < above
+    assert motor.start_frequency() > high  # bisection misses the resonance
+
+
+def test_magnet_of_the_lab_has_no_resonance_below_its_start_frequency():
+    least, top = said("13", "missed-look", r"none at any whole frequency from (\d+) to (\d+)\.")
+    motor = run("13", "load-hand")["motor"]
+    lost = lost_at(motor, range(int(least), int(top) + 2), 400)
+    assert lost.pop(int(top) + 1) > 0 and set(lost.values()) == {0}
+
+
+def test_half_steps_are_lost_in_multiples_of_eight():
+    (call,) = re.findall(r"Stepper\(.*\)(?=\))", cells("13")["half-explorer"])
+    motor = eval(call, {"Stepper": Stepper})
+    assert "the table has eight rows" in cells("13")["missed-look"]
+    assert "A multiple of eight" in cells("13")["missed-look"] and len(motor.currents) == 8
+    lost = {f: motor.run(np.arange(1, 49) / f, np.ones(48)).lost for f in range(160, 501, 20)}
+    assert lost[160] == 0 and max(lost.values()) > 0 and not any(n % 8 for n in lost.values())
+
+
+def test_pulses_in_half_of_the_ramp_are_as_stated():
+    ms, f0, f1, t_r = said(
+        "13", "ramp", r"first (\d+) ms of a ramp from (\d+) to (\d+) pulses/s in (\S+) s\?"
+    )
+    start, slope, due, after = said(
+        "13",
+        "ramp-look",
+        r"\$(\d+) \\cdot 0.05 \+ .*\\cdot (\d+) \\cdot 0.05\^2 = (\S+)\$ steps are due after "
+        r"(\d+) ms: three pulses have come",
+    )
+    t = ms / 1000
+    assert (start, after) == (f0, ms) and slope == pytest.approx((f1 - f0) / t_r)
+    assert due == pytest.approx(f0 * t + slope * t * t / 2) and math.floor(due) == 3
+    assert np.sum(ramp(48, f0, f1, t_r) <= t) == 3
 
 
 def test_labs_on_motors_do_not_mention_missing_tables():

@@ -2,7 +2,8 @@
 
 from collections.abc import Mapping
 from dataclasses import replace
-from math import ceil, sqrt
+from functools import cache
+from math import ceil
 from typing import Any
 
 import numpy as np
@@ -10,14 +11,16 @@ import numpy as np
 from robokin.course.exercises import in_words
 from robokin.course.told import apart, one_number
 from robokin.course.variants import Numbers, dice
-from robokin.jobs.steppers import ramp
+from robokin.jobs.steppers import Stepper, ramp
 
 from .shared import MOTOR, ONES, PULSES
 
 COUNT = 3
 KEYS = ("start", "end", "seconds")
 WEAK = replace(MOTOR, torque=0.8 * MOTOR.torque)
-SWINGS = 40  # the time allowed, in units of sqrt(inertia / torque) of the weaker motor
+SHARE = 0.75  # the time allowed, as a share of the shortest time without a ramp
+NEAR = 0.85  # a start above this share of the start frequency leaves no room for a rise
+ONLY_FULL = "only with the full torque"
 LONGEST = 10.0  # s: a longer move is not simulated
 Fault = tuple[str, str]
 Ramp = tuple[float, float, float]  # start and end in pulses/s, and its time in s
@@ -26,8 +29,8 @@ Ramp = tuple[float, float, float]  # start and end in pulses/s, and its time in 
 def given(who: Any) -> Numbers:
     """A load and a time that is too short for a start at one frequency."""
     load = dice("rotor", who).randrange(10, 42, 2) * 1e-7
-    swing = sqrt((WEAK.inertia + load) / WEAK.torque)
-    values = {"load_inertia": load, "within": ceil(100 * SWINGS * swing - 1e-9) / 100}
+    without = PULSES / fastest_start(WEAK, load)
+    values = {"load_inertia": load, "within": ceil(100 * SHARE * without - 1e-9) / 100}
     return Numbers(values, {"load_inertia": ("g cm²", 1e-7), "within": ("s", 1.0)})
 
 
@@ -45,12 +48,17 @@ def form(answer: Any, numbers: Any) -> Ramp:
             raise ValueError(f"{key}: wanted a positive number, got {in_words(answer[key])}")
         found.append(value)
     start, end, seconds = found
-    if start > end:
-        raise ValueError(f"start and end: wanted start <= end, got {start:g} and {end:g}")
     return start, end, seconds
 
 
 def faults(answer: Ramp, numbers: Any) -> list[Fault]:
+    start, end, _ = answer
+    if start > end:  # no condition can be checked
+        says = (
+            f"The ramp begins at `start`, {start:g} pulses/s, and rises to `end`, {end:g} "
+            "pulses/s: `end` has to be higher."
+        )
+        return [("start and end exchanged", says)] * COUNT
     load, within = float(numbers["load_inertia"]), float(numbers["within"])
     times = ramp(PULSES, *answer)
     takes = float(times[-1])
@@ -58,11 +66,12 @@ def faults(answer: Ramp, numbers: Any) -> list[Fault]:
     if takes <= LONGEST:
         full, weak = (each.run(times, ONES, 0, load).lost for each in (MOTOR, WEAK))
         if full:
-            found.append((why_lost(answer, load), f"It loses {full} of {PULSES} steps. {WAYS}"))
+            name, change = why_lost(answer, MOTOR, load)
+            found.append((name, f"It loses {full} of {PULSES} steps. {change}"))
         if weak:
-            name = "only with the full torque" if not full else why_lost(answer, load)
+            name, change = why_lost(answer, WEAK, load)
             says = f"With 80 % of its torque the motor loses {weak} of {PULSES} steps."
-            found.append((name, says))
+            found.append((name, says) if full else (ONLY_FULL, f"{says} {change}"))
     if takes > within:
         took, allowed = apart(takes, within, 2)
         says = f"The move takes {took} s; {allowed} s are allowed. {too_slow(answer, within)}"
@@ -73,7 +82,9 @@ def faults(answer: Ramp, numbers: Any) -> list[Fault]:
     return found
 
 
-WAYS = "A ramp that begins lower, ends lower, or takes longer usually loses fewer steps."
+@cache
+def fastest_start(motor: Stepper, load: float) -> float:
+    return motor.start_frequency(load_inertia=load)
 
 
 def too_slow(answer: Ramp, within: float) -> str:
@@ -91,10 +102,16 @@ def too_slow(answer: Ramp, within: float) -> str:
     return "Raise `start` or `end`, or shorten the ramp."
 
 
-def why_lost(answer: Ramp, load: float) -> str:
-    """The name of the mistake in a ramp with which steps are lost."""
+def why_lost(answer: Ramp, motor: Stepper, load: float) -> Fault:
+    """The name of the mistake in a ramp with which this motor loses steps, and what to change."""
     start, end, seconds = answer
     if seconds == 0 or end < 1.01 * start:
-        return "no ramp"
-    fast = start > MOTOR.start_frequency(load_inertia=load)
-    return "begins too fast" if fast else "too steep or too fast"
+        return "no ramp", "The frequency has to rise: `end` above `start`, and `seconds` above 0."
+    top = fastest_start(motor, load)
+    if start > top:
+        change = f"From rest, it cannot follow {start:.0f} pulses/s: lower `start`."
+        return "begins too fast", change
+    change = "The frequency rises too steeply or too far: raise `seconds`, or lower `end`."
+    if start > NEAR * fastest_start(WEAK, load):
+        change = "It begins too close to the weaker motor's start frequency: lower `start`."
+    return "too steep or too fast", change
