@@ -111,9 +111,63 @@ def added(K, alpha, lengths):
     return np.array([gamma, law(KB, a, KO) + law(KB, b, c), alpha])
 
 
+def one_length(k, reach=None):
+    """The lab's formulas with the length of lever k for L, and the reach of such an arm."""
+
+    def answer(K, alpha, lengths):
+        L = lengths[k]
+        if reach and not L < np.hypot(*K) <= 3 * L:
+            return np.nan
+        return of_the_lab(K, alpha, [L, L, L])
+
+    return answer
+
+
+def within_the_reach(lowest, highest):
+    """A correct formula that clips, and returns NaN outside the reach of the arm, as in the lab."""
+
+    def answer(K, alpha, lengths):
+        a, b, c = lengths
+        KO, KB = np.hypot(*K), np.sqrt(b**2 + c**2 - 2 * b * c * np.cos(alpha))
+        if KO <= lowest(lengths) or KO > highest(lengths):
+            return np.nan
+        gamma = angle_between(KO, a, KB) + np.arctan2(K[1], K[0])
+        return np.array([gamma, angle_between(KB, a, KO) + angle_between(KB, b, c), alpha])
+
+    return answer
+
+
+def two_angles(test):
+    """A program with two wrong angles: beta_2 of equal levers, and arctan of y / x."""
+
+    def answer(K, alpha, lengths):
+        a, b, c = lengths
+        KO, KB = np.hypot(*K), np.sqrt(b**2 + c**2 - 2 * b * c * np.cos(alpha))
+        if test and not (abs(a - KB) if test == "both" else 0) <= KO <= a + KB:
+            return np.nan
+        with np.errstate(divide="ignore"):
+            gamma = angle_between(KO, a, KB) + np.arctan(np.divide(K[1], K[0]))
+        return np.array([gamma, angle_between(KB, a, KO) + (np.pi - alpha) / 2, alpha])
+
+    return answer
+
+
+CLIPPED, REACH = "clipped if there is no triangle", "the reach of the lab's arm"
+TWO = "beta_2 of equal levers, and arctan of y / x"
+
+
 @pytest.mark.parametrize(
     ("answer", "mistake"),
     [
+        (one_length(1), f"one length for all levers, and {CLIPPED}"),
+        (one_length(2), f"one length for all levers, and {CLIPPED}"),
+        (one_length(0, "lab"), f"the formulas of equal levers, with OB, and {REACH}"),
+        (within_the_reach(lambda lengths: lengths[0], sum), REACH),
+        (within_the_reach(lambda lengths: 1, sum), REACH),
+        (within_the_reach(lambda lengths: 1, lambda lengths: 3), REACH),
+        (two_angles("both"), TWO),
+        (two_angles("far"), f"{TWO}, and an incomplete test for NaN"),
+        (two_angles(None), f"{TWO}, and an incomplete test for NaN"),
         (
             of_the_lab,
             "the formulas of equal levers, with OB, and clipped if there is no triangle",
@@ -211,6 +265,62 @@ def least_test(at=1e-5, limit=1e-6, plus=0.02 * deg, relative=0.0):
 def test_tolerances_of_tests_must_agree_with_the_promised_accuracy(test, mistake):
     verdict = check("three_levers.2", test)
     assert verdict.holds == (mistake is None) and verdict.mistake == mistake
+
+
+def drawn_anywhere(accepts):
+    """A test with targets in all directions from 0° to 180°, which `accepts` (q, K, previous, S)
+    judges.
+    """
+
+    def is_least(program):
+        rng = np.random.default_rng(0)
+        for _ in range(100):
+            r, phi = rng.uniform(1.1, 2.9), rng.uniform(0, np.pi)
+            K, previous = np.array([r * np.cos(phi), r * np.sin(phi)]), rng.uniform(0, np.pi, 3)
+            q = np.asarray(program(K, previous))
+            if not accepts(q, K, previous, ARM.least(K, previous)[1]):
+                return False
+        return True
+
+    return is_least
+
+
+def solved(q, K, previous, S):
+    return np.hypot(*(ARM.points(q)[3] - K)) < 1e-5 and abs(q - previous).sum() <= S + 0.02 * deg
+
+
+def test_test_is_told_that_a_target_is_out_of_reach():
+    verdict = check("three_levers.2", drawn_anywhere(solved))
+    assert verdict.mistake == "rejects every program"
+    told = verdict.says[-1]
+    x, y = map(float, re.search(r"with K = \[(\S+), (\S+)\] m, which `arm.least`", told).groups())
+    assert np.isnan(ARM.least((x, y), np.ones(3))[1]) and told.endswith("Leave such tasks out.")
+    # the programs raise no error for such targets, so that a test may also skip them afterwards
+
+    def skips(q, K, previous, S):
+        legal = (q > -1e-6).all() and (q < np.pi + 1e-6).all()
+        return np.isnan(S) or (q.shape == (3,) and legal and solved(q, K, previous, S))
+
+    assert check("three_levers.2", drawn_anywhere(skips)).holds
+
+
+def test_test_without_a_tolerance_is_told_of_the_rounding_error():
+    verdict = check("three_levers.2", least_test(limit=0))
+    assert verdict.mistake == "rejects a correct program"
+    assert "between 0° and 180° to within 1e-6 rad" in verdict.says[0]
+    past = r"It returned a (gamma|beta|alpha) that is (\S+) rad (above 180|below 0)°"
+    assert 0 < float(re.search(past, verdict.says[2])[2]) < 1e-6
+    assert "the specification allows 1e-6 rad" in verdict.says[2]
+
+
+def test_test_that_compares_angles_is_told_that_they_may_differ():
+    verdict = check("three_levers.2", the_same_angles)
+    told = (
+        r"The gripper was (\S+) m from K, S was (\S+)° above the minimum, and the angles differed "
+    )
+    off, above, apart = re.search(rf"{told}by up to (\S+)° from", " ".join(verdict.says)).groups()
+    assert float(off) < 1e-5 and float(above) <= 0.02 and float(apart) > 1e-5
+    assert "That meets the specification." in " ".join(verdict.says)
 
 
 @pytest.mark.parametrize("who", range(8))

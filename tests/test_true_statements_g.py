@@ -755,13 +755,13 @@ def test_recipe_for_the_other_bend_reaches_targets_behind_the_base():
         r"Only then check the limit of $\gamma$. Which targets behind the base does this arm reach?"
         in words
     )
-    assert "in every direction behind the base: at 1.2, 2.0 and 2.8 m we find postures" in words
+    assert "in every direction from 90° to 180°: at 1.2, 2.0 and 2.8 m we find postures" in words
     made = quietly("09", "chain-explorer", "chain-code", "angles-code")
     mirrored = 2 * np.array([np.cos(150 * deg), -np.sin(150 * deg)])
     assert np.isnan(ARM.alpha_range(mirrored)).all()  # the package's solvers find no posture
     assert np.isnan(ARM.least(mirrored, np.array([60, 120, 120]) * deg)[1])
     shares = {}
-    for phi in np.arange(92.5, 180, 5):
+    for phi in [*np.arange(90, 180, 2.5), 180]:
         for KO in (1.2, 2.0, 2.8):
             K = KO * cmath.exp(1j * phi * deg)
             kept = []

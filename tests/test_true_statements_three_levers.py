@@ -30,6 +30,7 @@ def in_circles(K, alphas):
 
 
 def test_only_ring_1_keeps_the_distance_of_the_gripper_from_the_base():
+    assert "Which circle has its centre at the base O?" in flat("09", "chain")
     assert "Ring 1: it turns the whole arm about O." in flat("09", "chain-look")
     q = np.array([100, 110, 120]) * deg
     far = [abs(gripper(q + 0.1 * np.eye(3)[k])) - abs(gripper(q)) for k in range(3)]
@@ -61,12 +62,26 @@ def test_range_disappears_within_reach_as_section_3_says():
 
 
 def test_with_b_on_the_other_side_beta_would_be_negative():
-    assert "would be negative, because $KO > L$" in flat("09", "angles-formula")
+    words = flat("09", "angles-formula")
+    assert "would be negative, because $KO > L$ makes" in words
+    assert r"$\cos\beta_1 < \frac{KB}{2L} = \cos\beta_2$" in words
     for KO in np.linspace(1.001, 2.999, 60):
         for alpha in np.linspace(math.acos((5 - KO**2) / 4), math.pi, 60):
             KB = 2 * math.sin(alpha / 2)
             beta_1 = math.acos(max(-1, min(1, (KB**2 + 1 - KO**2) / (2 * KB))))
             assert (math.pi - alpha) / 2 - beta_1 < 0
+            assert math.cos(beta_1) < KB / 2 + 1e-12
+            assert math.cos((math.pi - alpha) / 2) == pytest.approx(KB / 2)
+
+
+def test_beta_falls_from_180_degrees_within_its_limits():
+    words = flat("09", "limits")
+    assert r"between 0° and 180° ($\beta$ falls from 180° as $\alpha$ grows)" in words
+    for KO in np.linspace(1.001, 2.999, 60):
+        alphas = np.linspace(math.acos((5 - KO**2) / 4), math.pi, 400)
+        beta = in_circles(KO, alphas)[:, 1]
+        assert beta[0] == pytest.approx(math.pi, abs=1e-6)
+        assert (np.diff(beta) < 0).all() and beta[-1] >= 0
 
 
 def test_minimum_of_s_is_where_section_4_says():
@@ -91,7 +106,9 @@ def test_kink_of_gamma_has_the_least_sum_for_the_target_of_section_4():
     S, q = least_from(K, made["previous"])
     assert [made["S_kink"], made["kink"]] == pytest.approx([S, q[2]], abs=1e-6)
     assert family(K, made["kink"])[0] == pytest.approx(made["previous"][0], abs=1e-9)
-    assert made["sweep"](made["target"], made["previous"], made["width"])[1] > S + 0.1 * deg
+    found = [made["sweep"](made["target"], made["previous"], step * deg)[1] for step in (2, 1, 0.1)]
+    assert made["width"] == 2 * deg and "# try 1 * deg, 0.1 * deg" in cells("09")["least-code"]
+    assert found[0] > S + 0.1 * deg and sorted(found)[::-1] == found, "a finer sweep is worse"
 
 
 def test_share_of_moves_to_a_kink_holds_for_other_random_moves():
@@ -152,10 +169,34 @@ def test_times_of_the_fastest_and_of_the_least_movement_are_as_stated():
     told = r"after (\S+) s\. The one with the least S takes (\S+) s\."
     time, later = numbers(told, options[right].text)
     assert [change[best].max() / 30, turned / 30] == pytest.approx([time, later], abs=0.005)
+    words = flat("09", "cost-look")
+    (twice,) = numbers(
+        r"If the motor at A is twice as fast, the fastest move goes to \$\\alpha = (\S+)°\$", words
+    )
+    times = (change / [1, 1, 2]).max(axis=1)
+    assert alphas[times.argmin()] / deg == pytest.approx(twice, abs=0.05)
+
+
+def test_sums_in_the_question_about_time_agree_with_its_turns_and_with_the_view():
+    question, _, _ = asked("three_levers.p8")
+    turn = r"(\S+)°"
+    told = numbers(
+        rf"gamma turns by {turn}, beta by {turn} and alpha by {turn}, so S is about {turn}\. In "
+        rf"the other posture, they turn by {turn}, {turn} and {turn}, so S is about {turn}\.",
+        question,
+    )
+    alphas = np.linspace(*ends(FIRST), 40001)
+    change = abs(in_circles(FIRST, alphas) - STAND) / deg
+    for k, row in ((0, change.sum(axis=1).argmin()), (4, change.max(axis=1).argmin())):
+        assert change[row] == pytest.approx(told[k : k + 3], abs=0.05)
+        assert round(sum(told[k : k + 3])) == round(change[row].sum()) == told[k + 3]
 
 
 def test_best_first_posture_costs_what_section_6_says():
-    words = flat("09", "greed-hand")
+    words = f"{flat('09', 'greed-try')} {flat('09', 'greed-hand')}"
+    (lost,) = numbers(
+        r"may be expensive later: in section 6, it costs (\S+)° more\.", flat("09", "title")
+    )
     (greedy,) = numbers(r"the joints of the greedy arm turn by (\S+)° in total", words)
     best, now, then, total, less, more = numbers(
         r"Take α = (\S+)°\. The first task then costs (\S+)° and the second (\S+)°, which makes "
@@ -164,11 +205,14 @@ def test_best_first_posture_costs_what_section_6_says():
         words,
     )
     targets = r"\[\(2\.4, 0\.4\), \((\S+), (\S+)\)\]"
-    second = complex(*said("09", "cost-explorer", targets))
+    second = complex(*said("09", "greed-explorer", targets))
     assert second == complex(*said("09", "greed-run", f"pair = {targets}"))
     one, q = least_from(FIRST, STAND)
     two, _ = least_from(second, q)
     assert (one + two) / deg == pytest.approx(greedy, abs=0.05)
+    assert "and α already has its best value" in words, "the view moves alpha into its range"
+    end = least_from(second, q)[1]
+    assert end[0] == pytest.approx(math.pi, abs=1e-3) and end[2] < q[2]
     alphas = np.linspace(*ends(FIRST), 241)
     ways = [(abs(family(FIRST, a) - STAND).sum(), family(FIRST, a)) for a in alphas]
     sums = np.array([cost + least_from(second, q)[0] for cost, q in ways])
@@ -181,6 +225,7 @@ def test_best_first_posture_costs_what_section_6_says():
         [now, then, total], abs=0.05
     )
     assert (cost + rest) / deg < sums.min() / deg + 0.1
+    assert round((one + two - cost - rest) / deg) == lost
     assert [(cost - one) / deg, (two - rest) / deg] == pytest.approx([less, more], abs=0.05)
 
 
@@ -220,6 +265,35 @@ def test_check_of_exercise_2_stops_after_the_stated_time():
         r"a test that takes more than (\S+) s for one program", flat("09", "yourturn-2")
     )
     assert seconds == answers.SECONDS
+
+
+def test_angle_to_compute_before_exercise_2_is_right():
+    words = flat("09", "yourturn-2")
+    assert r"the least S is where $\beta$ keeps its value of 120°" in words
+    half, OA, KO, one, two, alpha = numbers(
+        r"OA = 2L\\sin (\S+)° = (\S+)\$ m and \$KO = (\S+)\$ m\. The angle at A is (\S+)° in the "
+        r"triangle O, B, A and (\S+)° in O, A, K, so \$\\alpha = (\S+)°\$",
+        words,
+    )
+    S, q = least_from(FIRST, STAND)
+    assert q[1] == pytest.approx(STAND[1], abs=1e-6) and q[2] / deg == pytest.approx(
+        alpha, abs=0.05
+    )
+    B = np.exp(1j * q[0])
+    A = B + np.exp(1j * (q[0] + q[1] - np.pi))
+    assert half == 60 and [abs(A), abs(FIRST)] == pytest.approx([OA, KO], abs=5e-4)
+    at_A = [abs(np.angle((x - A) / -A)) / deg for x in (B, FIRST)]
+    assert at_A == pytest.approx([one, two], abs=0.05) and one + two == pytest.approx(alpha)
+
+
+def test_folded_arm_is_nearer_to_the_base_than_a_lever():
+    *q, far = numbers(
+        r"Set `q_deg = \[(\d+), (\d+), (\d+)\]` in section 1: the arm folds, and K is (\S+) m from "
+        r"the base, nearer than \$L\$",
+        flat("09", "folded-look"),
+    )
+    assert f"[{q[0]:.0f}, {q[1]:.0f}, {q[2]:.0f}]" in cells("09")["chain-code"]
+    assert abs(gripper(np.array(q) * deg)) == pytest.approx(far, abs=0.005)
 
 
 def test_weights_reduce_the_change_of_gamma_by_the_stated_amount():

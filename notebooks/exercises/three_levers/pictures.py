@@ -5,7 +5,7 @@ from typing import Any
 import numpy as np
 
 from robokin import deg
-from robokin.show import Sketch, animate, curves, figure
+from robokin.show import Sketch, curves, figure
 from robokin.show.palette import AREA, FAINT, FIRST_AREA, INK, PAPER, SECOND, SOFT
 
 from . import predictions as of
@@ -84,15 +84,23 @@ def p3_view() -> Any:
 
 
 def p4_view() -> Any:
-    t = np.linspace(0, 8, 601)
-    phi = (30 + 100 * t / t[-1]) * deg
-    ring = of.RING * direction(phi)
-    q = ARM.family(ring, of.SAMPLE)
-    wrong = q.copy()
-    wrong[:, 0] += np.arctan(ring[:, 1] / ring[:, 0]) - phi
-    moving = np.concatenate([ring, np.zeros((len(t), 1))], axis=1)
-    names, title = ["arctan2(y, x)", "arctan(y / x)"], "K passes the y axis"
-    return animate([ARM, ARM], t, [q, wrong], names=names, points={"K": moving}, title=title)
+    sketch = Sketch(
+        "K moves on an arc from 30 to 130 degrees. With arctan2, the gripper stays on it. With "
+        "arctan of the quotient, it leaves the arc at 90 degrees and jumps to the opposite side "
+        "of O.",
+        title="Once K has passed 90°, arctan(y / x) turns the arm by 180° (dashed)",
+        unit="m",
+        height=4.8,
+    )
+    arc = of.RING * direction(np.linspace(30, 130, 101) * deg)
+    sketch.ax.plot(*arc.T, color=SOFT, lw=1.4)
+    sketch.ax.plot(*-arc[61:].T, color=SOFT, lw=1.4, ls="--")
+    q = ARM.family(arc[80], of.SAMPLE)
+    sketch.levers(ARM.points(q - [np.pi, 0, 0]), dashed=True)
+    sketch.levers(ARM.points(q), list("OBAK"))
+    sketch.point(-arc[80], "gripper", away=(1, 0))
+    sketch.ax.set_xlim(-3.5, 3.5)
+    return sketch
 
 
 def p5_view() -> Any:

@@ -162,9 +162,13 @@ def p7() -> dict[str, Any]:
 
 @cache
 def p8() -> dict[str, Any]:
-    rows = ARM.family(TARGET, np.linspace(*ARM.alpha_range(TARGET), 4001))
-    change = abs(rows - STAND) / deg
-    least, other = abs(ARM.least(TARGET, STAND)[0] - STAND) / deg, change[change.max(-1).argmin()]
+    low, high = ARM.alpha_range(TARGET)
+    for _ in range(3):  # with finer and finer steps
+        alphas = np.linspace(low, high, 1001)
+        change = abs(ARM.family(TARGET, alphas) - STAND) / deg
+        best = int(change.max(-1).argmin())
+        low, high = alphas[max(best - 1, 0)], alphas[min(best + 1, 1000)]
+    least, other = abs(ARM.least(TARGET, STAND)[0] - STAND) / deg, change[best]
     facts: dict[str, Any] = {"rate": RATE}
     for name, each in (("", least), ("other_", other)):
         facts |= {f"{name}{joint}": float(x) for joint, x in zip(JOINTS, each, strict=True)}
