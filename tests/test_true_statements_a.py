@@ -336,7 +336,7 @@ def test_half_the_duration_and_half_the_blend_cost_the_stated_accelerations():
     assert told[0.05, 20.0] / before == pytest.approx(share, abs=0.05)
     assert (before, told[0.05, 20.0]) == pytest.approx((least, most), abs=0.05)
     # why the factor of joint 3 is larger than that of the tool
-    assert "The tool's only doubles, but nearer to via, the arm is stretched further, and" in text
+    assert "That of the tool only doubles, but nearer to via, the arm is stretched" in text
     corner = blend(g["start"], g["via"], g["goal"], np.array([0.1, 0.05]), 0.5)
     q = IRB140.ik(corner)[:, 1]
     wrist = corner.translation - 65 * mm * corner.rotation.as_matrix()[..., 2]
@@ -482,8 +482,8 @@ def test_sharp_corner_and_quintic_corner_of_lab_03_are_as_stated():
     assert jumps.min() > 1e-3 * jumps.max() and jumps.argmax() + 1 == int(most)
     assert jumps.argmin() + 1 == int(hardly) and jumps.min() < 0.05 * jumps.max()
     text = " ".join(cells["effect-corner"].split())
-    assert "the weights are $1, 5, 10, 10, 5, 1$, so each side counts" in text
-    assert r"$(1 + 5 \cdot 0.6 + 10 \cdot 0.2)/32 = 3/16$, in the parabola $1/4$." in text
+    assert "the weights are $1, 5, 10, 10, 5, 1$, so each side has the weight" in text
+    assert r"$(1 + 5 \cdot 0.6 + 10 \cdot 0.2)/32 = 3/16$, compared with $1/4$ in" in text
     assert (
         "the middle of the quintic is only 3/4 as far from via, and the tool's greatest "
         "acceleration is 1.5" in text
@@ -546,8 +546,8 @@ def test_the_first_view_shows_how_near_the_path_can_pass():
 def test_the_race_says_that_its_accelerations_come_from_our_choice():
     g, _ = run("03", "race")
     text = sources("03")["ptp-formula"]
-    lag = number(r"Our choice of (\S+) s sets the accelerations", text)
-    assert "The clocks leave out speeding up and braking." in text
+    told = "The times do not include speeding up and braking, for which we chose"
+    lag = number(told + r" (\S+) s\.", text)
     assert g["lags"].max() == pytest.approx(lag)
     for q in g["runs"][1]:  # the arm that moves its joints in proportion
         v, a = (abs(differentiate(q, g["stopwatch"], order)).max(axis=0) for order in (1, 2))
@@ -564,15 +564,13 @@ def test_ptp_wins_every_race_although_its_path_is_longer():
         float, re.search(r"PTP wins all seven races, by (\S+) to (\S+) s,", text).groups()
     )
     assert len(g["goal_ys"]) == 7
-    assert "In PTP, one joint is at its limit all the way, in LIN only at one place" in text
+    assert "In PTP, one joint is at its speed limit all the way; in LIN, only at one place" in text
     low, high = re.search(
         r"limits of its joints allow \((\d+) to (\d+)°/s", sources("03")["lin"]
     ).groups()
     limits = IRB140.speed_limits / deg
     assert (limits.min(), limits.max()) == pytest.approx((float(low), float(high)))
-    place, joint = re.search(
-        r"for \$y = (\d+)\$, it is joint (\d), where the wrist is almost", text
-    ).groups()
+    place, joint = re.search(r"for \$y = (\d+)\$, joint (\d), with the wrist almost", text).groups()
     left, lead = g["left"], []
     for y, shown in zip(g["goal_ys"], g["race_times"], strict=True):
         goal = Transform(Quaternion.from_angle_axis(90 * deg, Y), (0.2, y * mm, 0.8))
