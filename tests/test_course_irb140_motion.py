@@ -389,7 +389,7 @@ def test_unknown_mistake_is_refused_but_not_named(number):
         ("2", lambda q0, q1, s, _: IRB140.fk(q1), "another kind or shape"),
         ("2", lambda *case: _by_arrays(*case).T, "transposed"),
         ("2", lambda *case: _by_arrays(*case) / deg, "degrees for radians"),
-        ("2", lambda q0, q1, s, _: s[:, None] * q1, "q0 is not used"),
+        ("2", lambda q0, q1, s, _: s[:, None] * q1, "q0 has no effect"),
         (
             "2",
             lambda q0, q1, s, _: ptp(q0, nearest(IRB140, q1[None], q0), s),

@@ -80,6 +80,14 @@ def _by_ik_alone(q1, q2, l1, along, side):
     return rows[1 if q2 >= 0 else 0, :2]
 
 
+def _by_direction_and_cosines(q1, q2, l1, along, side):
+    """Add an arccosine to the direction of the camera, whichever way the triangle bends."""
+    camera = l1 * np.exp(1j * q1) + (along + 1j * side) * np.exp(1j * (q1 + q2))
+    d, reach = abs(camera), np.hypot(along, side)
+    cosine = np.clip((l1**2 + d**2 - reach**2) / (2 * l1 * d), -1, 1)
+    return [np.angle(camera) + np.arccos(cosine), -q2 - 2 * np.arctan2(side, along)]
+
+
 @pytest.mark.parametrize(
     ("answer", "name"),
     [
@@ -90,7 +98,9 @@ def _by_ik_alone(q1, q2, l1, along, side):
         (_by_a_quotient, "arctan instead of arctan2 for the camera"),
         (_without_brackets, "brackets left out"),
         (lambda *case: print(case), "prints instead of returning"),
+        (_by_direction_and_cosines, "arccosine without the sign"),
         (lambda q1, q2, *lengths: (q1, q2), None),
+        (lambda q1, q2, *lengths: (q1, -q2), "only joint 2 changed"),
         (lambda q1, q2, *lengths: (-q1, -q2), "every sign changed"),
     ],
 )
@@ -201,6 +211,23 @@ def test_circle_that_goes_out_to_the_distance_in_hint_2_stays_away_from_the_stra
         assert ("too close to the straight arm" in says) == named, says
 
 
+def test_joint_3_turns_by_the_angle_in_hint_2_on_every_circle():
+    words = " ".join(str(hint("scara_kinematics.2", 2)).split())
+    pattern = r"turn by (\d+)° between its limits.* exactly (\d+)° .* and has (\d+)° to spare"
+    room, needed, spare = map(float, re.search(pattern, words).groups())
+    assert room == np.ptp(SCARA.limits[2]) / deg == needed + spare
+    for who in list(_every_task().values())[::7]:
+        numbers = variant("scara_kinematics", who)
+        nearest = CIRCLE["distance"](numbers["stop"]) + numbers["radius"]
+        for distance in np.linspace(nearest, 0.439 - numbers["radius"], 3):
+            for elbow in (+1, -1):
+                answer = {"distance": distance, "elbow": elbow, "angle": 0.0}
+                q = CIRCLE["joints"](answer, numbers)
+                assert np.ptp(q[:, 2]) / deg == pytest.approx(needed)
+                assert np.allclose(q[0, :2], q[-1, :2])
+                assert abs(q[0, 2]) > 30 * deg, "it does not start at the tool's angle"
+
+
 def test_task_matches_the_circle_in_the_lab():
     numbers = variant("scara_kinematics", "Ada")
     targets = CIRCLE["own_circle"](numbers, 0.3, 0.5)
@@ -230,6 +257,47 @@ def _sample_by_sample(radius, turns, elbow, limits):
 def test_excess_computed_with_the_law_of_cosines_passes():
     verdict = check("scara_kinematics.3", _sample_by_sample)
     assert verdict.holds, verdict
+
+
+@pytest.mark.parametrize(
+    ("row", "name"),
+    [
+        (lambda rows, elbow: rows[:, elbow], "always elbow −1"),
+        (lambda rows, elbow: rows[:, 1], "always elbow −1"),
+        (lambda rows, elbow: follow(SCARA, rows, elbow), "the flag used as a row"),
+    ],
+)
+def test_flag_used_as_an_index_is_named(row, name):
+    def answer(radius, turns, elbow, limits):
+        beta = np.linspace(0, 2 * np.pi, 401)
+        place = np.stack([0.2 + radius * np.cos(beta), radius * np.sin(beta), 0.1 + 0 * beta], -1)
+        q = row(SCARA.ik(ScaraPose(place, turns * beta)), elbow)
+        q = np.column_stack([q[:, :2], turns * beta - q[:, 0] - q[:, 1], q[:, 3]])
+        low, high = np.transpose(limits)
+        return np.maximum(q - high, low - q).max(axis=0).clip(0)
+
+    assert check("scara_kinematics.3", answer).mistake == name
+
+
+def test_samples_counted_instead_of_measured_are_named():
+    def counted(radius, turns, elbow, limits):
+        beta = np.linspace(0, 2 * np.pi, 401)
+        place = np.stack([0.2 + radius * np.cos(beta), radius * np.sin(beta), 0.1 + 0 * beta], -1)
+        q = follow(SCARA, SCARA.ik(ScaraPose(place, turns * beta)), SCARA.branch(elbow))
+        low, high = np.transpose(limits)
+        return ((q > high) | (q < low)).sum(axis=0)
+
+    verdict = check("scara_kinematics.3", counted)
+    assert verdict.mistake == "the samples counted"
+    # the sentence has the number that is returned, and the same in the unit of a figure
+    assert "you return [0, 71, 0, 0]" in verdict.case and "you have 71.000 rad (" in verdict.case
+
+
+def test_joint_3_starts_where_the_task_says_in_every_case():
+    exercise = LAB.exercises["3"]
+    for radius, _, elbow, _ in exercise.cases:
+        q = SCARA.ik(ScaraPose((0.2 + radius, 0, 0.1), 0.0))[SCARA.branch(elbow)]
+        assert abs(q[0] + q[1]) < np.pi  # so q3 = 0 − q1 − q2 is not wrapped
 
 
 def test_wrapped_angles_and_limits_of_the_lab_are_refused():

@@ -247,17 +247,21 @@ def test_shorter_intervals_do_not_show_smaller_changes():
 # --- Labs 04 to 06 --------------------------------------------------------------------------------
 
 
-def test_zone_of_row_0_goes_farther_back_at_positive_y():
+def test_light_grey_areas_of_the_zone_belong_to_the_stated_elbows():
     assert (
-        "that of row 0 (+1) goes farther back at positive y." in flat("04", "able")
-        and SCARA.branch(+1) == 0
+        "to the left (elbow +1, row 0) or to the right (−1). Both elbows reach the dark grey area. "
+        "Only +1 reaches the light grey area at the upper left, and only −1 the one at the lower "
+        "left." in flat("04", "able")
     )
+    assert SCARA.branch(+1) == 0
     across = np.arange(-449, 450, 2.0) * mm
-    x, y = np.meshgrid(across, across[across > 0])
+    x, y = np.meshgrid(across, across)
     grid = ScaraPose(np.stack([x, y, 0.1 + 0 * x], axis=-1))
     inside = within(SCARA, SCARA.ik(grid)).all(axis=-1)
-    back = np.where(inside, x[..., None], np.inf).min(axis=1)  # at each y, with each elbow
-    assert (back[:, 0] <= back[:, 1]).all() and back[:, 0].min() < back[:, 1].min() - 30 * mm
+    for row, side in ((0, 1), (1, -1)):
+        alone = inside[..., row] & ~inside[..., 1 - row]
+        assert alone.sum() > 20000 and (side * y[alone] > 0).all()
+        assert x[alone].mean() < -100 * mm
 
 
 def test_only_the_arms_length_limits_the_reach_in_front():

@@ -192,7 +192,7 @@ class Function(Exercise):
                 return "nearly right", (off,)
             if unused := self._unused(answer, outcomes)[:2]:
                 told = " or ".join(f"`{each}`" for each in unused)
-                names = [f"{each} is not used" for each in unused]
+                names = [f"{each} has no effect" for each in unused]
                 return " and ".join(names), (f"The result stays the same when {told} changes.",)
         told = "The mistake is not recognised: look at the case."
         if self.endless:

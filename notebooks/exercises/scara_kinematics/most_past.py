@@ -15,7 +15,8 @@ from .shared import MINUS, Floats
 
 __all__ = ["cases", "deg", "form", "law", "mm", "same", "wrapped"]
 Case = tuple[float, int, int, Floats]
-NAMES = (("°", deg), ("°", deg), ("°", deg), (" mm", mm))
+ANGLE, LENGTH = (" rad", "°", deg), (" m", " mm", mm)
+NAMES = (ANGLE, ANGLE, ANGLE, LENGTH)
 
 
 def cases(rng: np.random.Generator) -> list[Case]:
@@ -57,10 +58,14 @@ def form(result: Any, case: Case) -> Floats:
 
 
 def law(case: Case, yours: Floats, right: Floats) -> str | None:
-    for k, (unit, size) in enumerate(NAMES):
+    for k, (unit, shown, size) in enumerate(NAMES):
         if not abs(yours[k] - right[k]) <= 1e-6:
-            most, got = apart(right[k] / size, yours[k] / size)
-            told = f"joint {k + 1} exceeds its limits by up to {most}{unit}; you have {got}{unit}"
+            most, got = apart(right[k], yours[k], 3)
+            most_shown, got_shown = apart(right[k] / size, yours[k] / size)
+            told = (
+                f"joint {k + 1} exceeds its limits by up to {most}{unit} ({most_shown}{shown}); "
+                f"you have {got}{unit} ({got_shown}{shown})"
+            )
             return told.translate(MINUS)
     return None
 
