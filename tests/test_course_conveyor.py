@@ -29,12 +29,13 @@ def ways(place):
     return 15 / 8 * abs(np.array(turns)).max(axis=-1) / 2
 
 
-def missed(v, gap, spread, seed, place, arms):
+def missed(v, gap, spread, seed, place, arms, first_come=False):
     """Return how many objects this number of arms misses, computed without the package."""
     steps = np.random.default_rng(seed).permutation(np.linspace(-1, 1, 200))
     left, takes = np.cumsum(gap * (1 + spread * steps)) / v, ways(place)
-    for _ in range(arms):
-        free, rest = 0.0, [*left]
+    for k in range(arms):
+        # each window begins where the one before it ends; all arms are free at time 0
+        free, rest = 0.0, [*(left + k * (Y[-1] - Y[0]) / v)]
         while True:
             at = np.array(rest)[:, None] + (Y - Y[0]) / v
             in_time = at >= free + takes
@@ -44,10 +45,10 @@ def missed(v, gap, spread, seed, place, arms):
             back = np.where(
                 in_time.any(axis=-1), at[range(len(rest)), first] + takes[first], np.inf
             )
-            pick = int(back.argmin())
+            pick = int(np.isfinite(back).argmax() if first_come else back.argmin())
             free = back[pick]
             del rest[pick]
-        left = np.array(rest)
+        left = np.array(rest) - k * (Y[-1] - Y[0]) / v
         if not len(left):
             break
     return len(left)
@@ -57,8 +58,10 @@ def line(own, place, arms, least=None):
     bound = math.ceil(2 * ways(place).min() * own["v"] / own["gap"])
     numbers = own["v"], own["gap"], own["spread"]
     lost = sum(missed(*numbers, seed, place, bound) for seed in own["seeds"])
+    late = sum(missed(*numbers, seed, place, arms, first_come=True) for seed in own["seeds"])
     least = bound if least is None else least
-    return {"bin": list(place), "least": least, "missed": lost, "arms": arms}
+    counts = {"least": least, "missed": lost, "arms": arms, "first_come": late}
+    return {"bin": list(place)} | counts
 
 
 @pytest.mark.parametrize("who", [f"student {k}" for k in range(8)])
@@ -91,12 +94,14 @@ def test_mistakes_in_lines_are_named():
         "another bound": right | {"least": 30},
         "one stream of three": right | {"missed": first},
         "taken for missed": right | {"missed": 600 - right["missed"]},
-        "another number of missed objects": right | {"missed": 0},
-        "more arms than allowed": right | {"arms": most + 1},
+        "another number of missed objects": right | {"missed": right["missed"] + 1},
+        "another number under first come": right | {"first_come": right["first_come"] + 1},
+        "first come, taken for missed": right | {"first_come": 600 - right["first_come"]},
+        "more arms than allowed": line(own, CORNER, most + 1),
         "too few arms": line(own, BIN, 1),  # more than one arm would be busy all the time
+        "no number of arms for a line": right | {"arms": 0},
         "millimetres for metres": right | {"bin": [350, -450]},
         "the bin is somewhere else": right | {"bin": [0.5, -0.45]},
-        "no number of arms for a line": right | {"arms": 0},
         "another kind or shape": right | {"arms": 2.5},
     }
     for name, answer in wrong.items():
@@ -106,6 +111,54 @@ def test_mistakes_in_lines_are_named():
         verdict = check("conveyor.1", right | changed, who="Ada")
         assert verdict.mistake == "another kind or shape"
     assert not check("conveyor.1", right | {"arms": ...}, who="Ada").answered
+
+
+def test_mistakes_that_give_the_same_number_are_all_named():
+    """The time of one way gives a bound of one arm, and so does rounding down."""
+    own, who = variant("conveyor", "Anna Petrova"), "Anna Petrova"
+    c = 2 * ways(CORNER).min()
+    load = c * own["v"] / own["gap"]
+    assert math.floor(load) == math.ceil(load / 2) == 1 and math.ceil(load) == 2
+    verdict = check("conveyor.1", line(own, CORNER, own["most"], least=1), who=who)
+    assert verdict.mistake == "rounded down or the time of one way"
+    assert "More than one mistake gives 1." in verdict.says[0]
+    assert "You rounded" in verdict.says[0] and "You used the time of one way." in verdict.says[0]
+    # a wrong bound is one mistake: what so many arms miss follows from it
+    numbers = own["v"], own["gap"], own["spread"]
+    lost = sum(missed(*numbers, seed, CORNER, 1) for seed in own["seeds"])
+    for change in ({}, {"missed": lost}):
+        follows = line(own, CORNER, own["most"], least=1) | change
+        verdict = check("conveyor.1", follows, who=who)
+        assert verdict.mistake == "rounded down or the time of one way"
+        assert len(verdict.says) == 1
+
+
+@pytest.mark.parametrize("who", ["your name", "Anna Petrova", "Chen Li"])
+def test_a_count_that_is_off_by_one_is_refused(who):
+    own = variant("conveyor", who)
+    right = line(own, CORNER, own["most"])
+    assert check("conveyor.1", right, who=who).holds
+    for key in ("missed", "first_come"):
+        for more in (-1, 1, 9):
+            wrong = right | {key: max(0, right[key] + more)}
+            assert not check("conveyor.1", wrong, who=who).holds, (key, more)
+
+
+def test_mistakes_under_first_come_are_named():
+    own, who = variant("conveyor", "Anna Petrova"), "Anna Petrova"
+    numbers, right = (own["v"], own["gap"], own["spread"]), line(own, CORNER, own["most"])
+    counts = [
+        [missed(*numbers, seed, CORNER, arms, first_come=True) for seed in own["seeds"]]
+        for arms in (right["least"], right["arms"])
+    ]
+    wrong = {
+        "back soonest instead of first come": 0,
+        "first come by another number of arms": sum(counts[0]),
+        "first come, one stream of three": counts[1][0],
+    }
+    assert len({*wrong.values(), sum(counts[1])}) == 4
+    for name, number in wrong.items():
+        assert check("conveyor.1", right | {"first_come": number}, who=who).mistake == name
 
 
 def test_numbers_used_in_the_predictions_are_correct():
@@ -131,6 +184,10 @@ def test_numbers_used_in_the_predictions_are_correct():
     assert lost[85] == lost[90] == 0 < lost[95] and "90 mm/s" in options[right].text
     facts = LAB.module("predictions")["p9"]()
     assert (facts["even"], facts["uneven"]) == (120, 90) and facts["rule"] > facts["even"]
+    spreads = {"even_fast": 0, "uneven_fast": 0.5}
+    assert facts["fast"] == 140
+    for name, spread in spreads.items():
+        assert facts[name] == missed(0.14, 0.15, spread, 8, BIN, 1)
     # the range over other orders of the same gaps
     assert (facts["least"], facts["greatest"]) == (80, 90)
     assert facts["first"] == 95

@@ -434,15 +434,15 @@ def test_belt_table_shows_one_stream_and_other_streams_need_one_more_arm():
     assert "at all six speeds. At spread 0.5, it is one arm too few at three of these" in words
     assert "speeds; at spread 1, it is one arm too few at five of them." in words
     assert (
-        'All this is for one order of the gaps, `seed=8`; other orders need another arm ("More").'
-        in words
+        "All this is for one order of the gaps, `seed=8`; at spread 1, most other orders need "
+        'another arm ("More").' in words
     )
-    assert (
-        "With each of the next four streams, 9 to 12, spread 1 needs a fourth arm at 200 mm/s and "
-        "a fifth at 300 mm/s." in flat("14", "deeper")
+    orders, fourth, more = numbers(
+        r"The folded cell tries (\d+) orders: at spread 0.5, not at all; at spread 1, (\d+) need a "
+        r"fourth arm at 200 mm/s, and (\d+) need a fifth or sixth at 300 mm/s\.",
+        flat("14", "deeper"),
     )
     printed = shown("14", "deeper-orders")
-    assert "200 mm/s: 3 4 4 4 4\n300 mm/s: 4 5 5 5 5" in printed
     speeds = (0.05, 0.1, 0.15, 0.2, 0.25, 0.3)
     rounded_up = [math.ceil(2 * WAYS.min() * v / 0.15) for v in speeds]
     few = [
@@ -452,8 +452,61 @@ def test_belt_table_shows_one_stream_and_other_streams_need_one_more_arm():
     assert few[0] == [0] * 6 and sorted(few[1]) == [0] * 3 + [1] * 3
     assert sorted(few[2]) == [0] + [1] * 5
     assert (arms_needed(0.2, 1, 8), arms_needed(0.3, 1, 8)) == (3, 4)
-    for seed in range(9, 13):
-        assert (arms_needed(0.2, 1, seed), arms_needed(0.3, 1, seed)) == (4, 5)
+    for v, normal, extra in ((0.2, 3, fourth), (0.3, 4, more)):
+        counts = [arms_needed(v, 1, seed) for seed in range(8, 28)]
+        assert len(counts) == orders and counts[0] == normal
+        assert sum(n > normal for n in counts) == extra > (orders - 1) / 2, "most of the others"
+        assert set(counts) == set(range(normal, 5 if v < 0.3 else 7))
+        found = [f"{n} arms for {counts.count(n)} orders" for n in sorted(set(counts))]
+        assert f"{1000 * v:.0f} mm/s, spread 1: {', '.join(found)}" in printed
+        assert {arms_needed(v, 0.5, seed) for seed in range(8, 28)} == {normal}
+        assert f"{1000 * v:.0f} mm/s, spread 0.5: {normal} arms for {orders:g} orders" in printed
+
+
+def test_belt_arms_take_as_many_objects_as_stated():
+    """Arm 3 works in the whole stream at spreads at which it has nothing to do in the view."""
+    words = flat("14", "able")
+    assert "In the whole stream of 200, it gets two even at 0.2, and 15 at 1." in words
+    printed = shown("14", "belt-arms")
+    for spread in (0, 0.2, 0.4, 1):
+        left, takes = belt_stream(spread, 8) / 0.2, []
+        while len(left):
+            backs, left = one_arm(np.array(left) + (len(takes) > 0) * 4.0, 0.2)
+            takes.append(len(backs))
+        line = f"spread {spread:3}: the arms take {' '.join(map(str, takes))}"
+        assert line in printed.splitlines() or f"200 mm/s, {line}\n" in printed
+        assert sum(takes) == 200 and takes[2:] == {0: [], 0.2: [2], 0.4: [4], 1: [15]}[spread]
+
+
+def test_gripping_time_needs_a_third_arm():
+    words = flat("14", "belt-look")
+    assert "**try** `grip = 0.3` (seconds). At 200 mm/s, even evenly spaced objects then" in words
+    with contextlib.redirect_stdout(io.StringIO()):
+        made = run_cells("14", "belt-arms", changed=[("grip = 0.0", "grip = 0.3")])
+    assert made["per_object"] == pytest.approx(2 * WAYS.min() + 0.3)
+    assert made["per_object"] * 0.2 / 0.15 > 2  # the bound
+    assert (made["taken"](0.2, 0) > 0).sum() == 3
+
+
+def test_first_come_takes_more_if_the_window_is_shorter():
+    words = flat("14", "belt-look")
+    length, more, fewer = numbers(
+        r'With only its first (\d+) mm, "first come" takes (\d+) objects in section 2 instead of '
+        r"(\d+)\.",
+        words,
+    )
+    last = round(length / 5) + 1  # a place every 5 mm
+    counts = []
+    for places in (last, 161):
+        delays, free, count = np.linspace(0, 0.8, 161)[:places] / 0.15, 0.0, 0
+        for arrival in belt_stream(0.5, 8) / 0.15:
+            in_time = np.flatnonzero(arrival + delays >= free + WAYS[:places] - 1e-9)
+            if len(in_time):
+                free = arrival + delays[in_time[0]] + WAYS[in_time[0]]
+                count += 1
+        counts.append(count)
+    assert counts == [more, fewer]
+    assert f"first 150 mm of the window: {more:g} of 200" in shown("14", "belt-work")
 
 
 def test_belt_player_shows_the_streams_of_the_table(monkeypatch):
@@ -480,7 +533,9 @@ def test_belt_player_shows_the_streams_of_the_table(monkeypatch):
             assert counts[f"arm {arm + 1}"].rows[k, :, 0].tolist() == wanted
         assert not left  # three arms are enough, as the table says
         busy.append(wanted[-1] > 0)
-    assert "Arm 3 gets an object when the spread is 0.4 or more." in flat("14", "able")
+    assert "In these six seconds, arm 3 first gets an object at a spread of 0.4." in flat(
+        "14", "able"
+    )
     assert busy == [spread >= 0.4 for spread in spreads]
 
 
@@ -542,13 +597,28 @@ def test_first_come_is_never_worse_for_one_arm_that_must_miss_none():
                 assert len(rule(stream / (most + 5), (most + 5) / 1000)[1])
 
 
+def test_first_come_misses_far_more_a_little_above_its_limit():
+    load, least, most, few, many = numbers(
+        r"at 100 mm/s and spread 0\.5, where \$c\\,v/g\$ is only (\S+), it misses (\d+) to (\d+) "
+        r'objects \(last line\), and "back soonest" (\d+) to (\d+)\.',
+        flat("14", "belt-curve-look"),
+    )
+    assert load == pytest.approx(2 * WAYS.min() * 0.1 / 0.15, abs=0.005) and load < 1
+    soonest, first = (
+        [len(rule(belt_stream(0.5, seed) / 0.1, 0.1)[1]) for seed in (8, 9, 10)]
+        for rule in (one_arm, in_order)
+    )
+    assert [min(first), max(first)] == [least, most]
+    assert [min(soonest), max(soonest)] == [few, many]
+    line = shown("14", "belt-spread").splitlines()[-1]
+    assert [int(n) for n in line.split()] == soonest + first
+
+
 def test_twice_the_gap_does_not_double_the_speed_for_uneven_gaps():
-    words = flat("14", "belt-curve-look")
-    assert "With a mean gap of 300 mm, the speed at spread 0 doubles." in words
     low, high, low_long, high_long = numbers(
-        r'With the short gaps, "back soonest" takes all objects at speeds up to (\d+)–(\d+) mm/s; '
-        r"with the long ones, only up to (\d+)–(\d+) mm/s",
-        words,
+        r"`gap = 300 \* mm` in section 3: the speed at spread 0 doubles, but at spread 1 it rises "
+        r"only from (\d+)–(\d+) to (\d+)–(\d+) mm/s",
+        flat("14", "deeper"),
     )
     assert "gap = 150 * mm  # try 300 * mm" in cells("14")["belt-spread"]
     short = quietly("14", "belt-spread")["most"]

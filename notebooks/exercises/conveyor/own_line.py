@@ -1,7 +1,7 @@
 """Exercise 1: a student's own belt, and the mistakes in its bin and in the number of its arms."""
 
-from collections.abc import Mapping
-from functools import cache
+from collections.abc import Mapping, Sequence
+from functools import cache, partial
 from math import ceil, floor
 from typing import Any
 
@@ -16,17 +16,15 @@ from robokin.jobs.conveyor import BIN, ways_from
 from .shared import COUNT as OBJECTS
 from .shared import Floats, taken
 
-COUNT = 5
-KEYS = ("bin", "least", "missed", "arms")
+COUNT = 6
+KEYS = ("bin", "least", "missed", "arms", "first_come")
 LOW, HIGH = np.array([[150, -450], [350, 450]]) * mm  # where the bin may stand: x and y
 HEIGHT = 250 * mm
 CORNER = (350 * mm, -450 * mm)  # the least time of one object
 MOST_ARMS = 12
-# A rounding error can decide which of two objects an arm takes; from then on it takes others.
-ROUNDED = 0.2
 Fault = tuple[str, str]
-# the bin, the bound, what so few arms miss, the arms
-Line = tuple[tuple[float, float], int, int, int]
+# the bin, the bound, what so few arms miss, the arms, and what these miss under "first come"
+Line = tuple[tuple[float, float], int, int, int, int]
 
 
 @cache
@@ -35,13 +33,13 @@ def ways(place: tuple[float, float]) -> Floats:
     return ways_from([*place, HEIGHT])
 
 
-def missed(numbers: Mapping[str, Any], place: tuple[float, float], arms: int) -> list[int]:
+def missed(
+    numbers: Mapping[str, Any], place: tuple[float, float], arms: int, *, first_come: bool = False
+) -> list[int]:
     """How many objects of each stream these arms miss."""
     v, gap, spread = (float(numbers[name]) for name in ("v", "gap", "spread"))
-    return [
-        OBJECTS - taken(v, spread, ways(place), gap=gap, arms=arms, seed=seed)
-        for seed in numbers["seeds"]
-    ]
+    times, take = ways(place), partial(taken, gap=gap, arms=arms, first_come=first_come)
+    return [OBJECTS - take(v, spread, times, seed=seed) for seed in numbers["seeds"]]
 
 
 def none_missed(numbers: Mapping[str, Any], place: tuple[float, float], arms: int) -> bool:
@@ -76,7 +74,8 @@ def given(who: Any) -> Numbers:
 
 def form(answer: Any, numbers: Any) -> Line:
     if not isinstance(answer, Mapping) or not set(KEYS) <= set(answer):
-        wanted = 'wanted {"bin": [x, y] in m} and whole numbers for "least", "missed" and "arms"'
+        names = '"least", "missed", "arms" and "first_come"'
+        wanted = f'wanted {{"bin": [x, y] in m}} and whole numbers for {names}'
         raise ValueError(f"{wanted}, got {in_words(answer)}")
     try:
         place = floats(answer["bin"])
@@ -93,11 +92,12 @@ def form(answer: Any, numbers: Any) -> Line:
         if not 0 <= value <= 1000 or value % 1:
             raise ValueError(f"{key}: wanted a whole number, got {in_words(answer[key])}")
         counts.append(int(value))
-    return (float(place[0]), float(place[1])), counts[0], counts[1], counts[2]
+    least, lost, arms, late = counts
+    return (float(place[0]), float(place[1])), least, lost, arms, late
 
 
 def faults(line: Line, numbers: Any) -> list[Fault]:
-    place, least, told, arms = line
+    place, least, told, arms, told_first = line
     if (np.array(place) < LOW - 1e-9).any() or (np.array(place) > HIGH + 1e-9).any():
         name = "millimetres for metres" if max(map(abs, place)) > 2 else "the bin is somewhere else"
         says = (
@@ -108,39 +108,72 @@ def faults(line: Line, numbers: Any) -> list[Fault]:
     found = []
     bound = bounds(place, numbers)
     if least != bound["the bound"]:
-        name = next((each for each, n in bound.items() if n == least), "another bound")
-        found.append((name, WHY.get(name, WHY["another bound"])))
-    lost = missed(numbers, place, bound["the bound"])
-    if abs(told - sum(lost)) > ROUNDED * sum(lost):
-        slips = {lost[0]: "one stream of three", 3 * OBJECTS - sum(lost): "taken for missed"}
-        name = slips.get(told, "another number of missed objects")
-        found.append((name, WHY[name]))
+        found.append(slip(least, list(bound.items()), "another bound"))
+    # a student with a wrong bound may have counted what that many arms miss
+    served = least if 1 <= least <= MOST_ARMS else bound["the bound"]
+    lost = missed(numbers, place, served)
+    if told not in (sum(lost), sum(missed(numbers, place, bound["the bound"]))):
+        slips = [("one stream of three", lost[0]), ("taken for missed", 3 * OBJECTS - sum(lost))]
+        found.append(slip(told, slips, "another number of missed objects"))
     most = int(numbers["most"])
-    if arms < 1 or arms > MOST_ARMS or not none_missed(numbers, place, arms):
-        too_few = 1 <= arms <= MOST_ARMS
-        name = "the bound is not enough" if arms == bound["the bound"] else "too few arms"
-        many = "one arm" if arms == 1 else f"{arms} arms"
-        says = f"With {many} and this bin, some objects of a stream are missed."
-        if not too_few:
-            says = f"Wanted 1 to {MOST_ARMS} arms, got {arms}."
-        found.append((name if too_few else "no number of arms for a line", says))
+    if not 1 <= arms <= MOST_ARMS:
+        says = f"Wanted 1 to {MOST_ARMS} arms, got {arms}."
+        found.append(("no number of arms for a line", says))
+    else:
+        if not none_missed(numbers, place, arms):
+            name = "the bound is not enough" if arms == bound["the bound"] else "too few arms"
+            many = "one arm" if arms == 1 else f"{arms} arms"
+            found.append((name, f"With {many} and this bin, some objects of a stream are missed."))
+        late = missed(numbers, place, arms, first_come=True)
+        if told_first != sum(late):
+            other = missed(numbers, place, served, first_come=True)
+            slips = [
+                ("back soonest instead of first come", sum(missed(numbers, place, arms))),
+                ("first come by another number of arms", sum(other)),
+                ("first come, one stream of three", late[0]),
+                ("first come, taken for missed", 3 * OBJECTS - sum(late)),
+            ]
+            found.append(slip(told_first, slips, "another number under first come"))
     if arms > most:
-        says = f"You may use {most} arms at most. A bin with a smaller c usually needs fewer."
+        says = (
+            f"You may use {most} arms at most. Try other places for the bin, also nearer to the "
+            "belt: a small c is not enough if the way to the rest of the window is long."
+        )
         found.append(("more arms than allowed", says))
     return found
+
+
+def slip(told: int, slips: Sequence[tuple[str, int]], otherwise: str) -> Fault:
+    """Name every mistake that gives this number."""
+    names = [name for name, number in slips if number == told] or [otherwise]
+    first, *others = (WHY[name] for name in names)
+    says = [first, *(f"Or: {why}" for why in others)]
+    if others:
+        says.insert(0, f"More than one mistake gives {told}.")
+    return " or ".join(names), " ".join(says)
 
 
 WHY = {
     "rounded down": "You rounded the bound down. So few arms do not have enough time for all "
     "the objects.",
-    "there without back": "You used the time of one way. c is the time there and back.",
+    "the time of one way": "You used the time of one way. c is the time there and back.",
     "the bin of the lab": "You used c of the lab's bin. Your bin has a different c.",
     "the mean over the window": "You used the mean over the window. That is not a bound, because "
     "the arms may take most objects near the bin. Use the least time.",
     "one stream of three": "That is what the arms miss of the first stream. Add the other two.",
     "taken for missed": "So many of the 600 objects are taken. Give the number that is missed.",
-    "another number of missed objects": "Let as many arms as the bound for your bin serve each of "
-    "your three streams, and add up what they miss.",
+    "another number of missed objects": "missed: let `least` arms serve each of your three "
+    "streams by the rule back soonest, and add up what they miss.",
+    "back soonest instead of first come": "So many are missed under back soonest. For "
+    "first_come, call count_missed with first_come=True.",
+    "first come by another number of arms": "So many are missed by `least` arms under first come. "
+    "Give what `arms` arms miss.",
+    "first come, one stream of three": "That is what your arms miss of the first stream under "
+    "first come. Add the other two.",
+    "first come, taken for missed": "So many of the 600 objects are taken under first come. Give "
+    "the number that is missed.",
+    "another number under first come": "first_come: let `arms` arms, the same number as before, "
+    "serve your three streams under first come, and add up what they miss.",
     "another bound": "The bound is c v / g, rounded up: c is 2 ways_from([x, y, 0.25]).min() for "
     "your bin, and g is the mean gap.",
 }
@@ -156,5 +189,5 @@ def bounds(place: tuple[float, float], numbers: Mapping[str, Any]) -> dict[str, 
         "rounded down": floor(c.min() * per_second),
         "the bin of the lab": ceil(lab.min() * per_second),
         "the mean over the window": ceil(c.mean() * per_second),
-        "there without back": ceil(c.min() / 2 * per_second),
+        "the time of one way": ceil(c.min() / 2 * per_second),
     }

@@ -35,7 +35,7 @@ def p2_view() -> Any:
         (trips,) = serve(stream, 150 * mm, ALONG, ways_from(), first_come=first_come)
         ax.plot(trips.meets, ALONG[trips.places] / mm, "ov"[first_come], color=color, ms=4)
         name = "first come" if first_come else "back soonest"
-        ax.text(202, np.median(ALONG[trips.places]) / mm, name, color=color, va="center")
+        ax.text(208, np.median(ALONG[trips.places]) / mm, name, color=color, va="center")
     ax.set(xlabel="time, s", ylabel="position along the belt, mm", xlim=(0, 265), ylim=(-430, 430))
     ax.set_title(f"{facts['soon']} objects near the bin, or {facts['first']} far from it")
     fig.tight_layout()

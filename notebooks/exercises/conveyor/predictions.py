@@ -84,6 +84,9 @@ def p9() -> Mapping[str, Any]:
         "half": round(most["even"] / 2),
         "rule": float(GAP / (2 * ways_from().min()) / mm),
         "lost": lost,
+        "fast": SPEEDS[-1],
+        "even_fast": lost["even"][-1],
+        "uneven_fast": lost["uneven"][-1],
         "at_even": lost["uneven"][SPEEDS.index(most["even"])],
         "right": fast if share > 0.95 else slow,
     }
