@@ -97,11 +97,9 @@ def test_player_shows_a_belt_of_ones_own(monkeypatch):
             assert brought[i][k].tolist() == wanted and wanted[-1]
 
 
-def test_title_asks_for_what_the_reader_can_choose(monkeypatch):
+def test_title_asks_for_what_the_view_counts(monkeypatch):
     monkeypatch.setattr("robokin.show.conveyor.animate", lambda *given, **named: named["title"])
-    assert conveyor_player(0.2, SPREADS, 3) == "200 mm/s: which spread gives arm 3 work to do?"
-    both = conveyor_player(0.2, SPREADS, 3, rules=True)
-    assert both == "200 mm/s: which rule gives arm 3 work to do?"
+    assert conveyor_player(0.2, SPREADS, 3) == "200 mm/s: how many objects does arm 3 bring?"
     alone = conveyor_player(0.2, SPREADS, 1, rules=True)
     assert alone == "200 mm/s: how many objects does one arm bring?"
 

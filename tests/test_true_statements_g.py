@@ -653,7 +653,7 @@ def test_only_first_come_gives_the_fourth_arm_work(monkeypatch):
     )
     call = "conveyor_player(0.2, [0, 0.5, 1], arms=4, rules=True)"
     (_, _, motions), named = given_to_animate(monkeypatch, "belt-rules-player", call)
-    assert named["title"] == "200 mm/s: which rule gives arm 4 work to do?"
+    assert named["title"] == "200 mm/s: how many objects does arm 4 bring?"
     moves = np.ptp(motions[3], axis=2).max(axis=-1)  # of arm 4, by rule and spread
     assert not moves[0].any() and (moves[1] > 0.5).all()
     (brought,) = named["quantities"].values()

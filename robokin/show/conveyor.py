@@ -92,7 +92,7 @@ def conveyor_player(
         faces=_belt(feet) + _boxes(feet, place),
         things=_labels(feet, numbers),
         quantities={"objects brought": numbers if count > 1 else numbers[0]},
-        title=_title(speed, count, len(words) > 1),
+        title=_title(speed, count),
     )
 
 
@@ -116,10 +116,9 @@ def _checked(
     return speed, values, whole(arms, "arms", 1, BUSIEST), mean
 
 
-def _title(speed: float, count: int, rules: bool) -> str:
-    last = f"which {'rule' if rules else 'spread'} gives arm {count} work to do?"
-    question = last if count > 1 else "how many objects does one arm bring?"
-    return f"{speed / mm:.0f} mm/s: {question}"
+def _title(speed: float, count: int) -> str:
+    who = f"arm {count}" if count > 1 else "one arm"
+    return f"{speed / mm:.0f} mm/s: how many objects does {who} bring?"
 
 
 def _motion(trips: Trips, times: Floats, at_bin: Floats) -> Floats:
