@@ -445,3 +445,16 @@ def test_answer_that_returns_nan_for_points_just_within_reach_is_refused(share):
         return levers(K, alpha, lengths) if share * np.hypot(*K) > abs(a - KB) else np.nan
 
     assert not check("three_levers.1", far).holds and not check("three_levers.1", near).holds
+
+
+def test_first_example_for_a_test_that_accepts_everything_is_the_plainest_one():
+    verdict = check("three_levers.2", lambda program: True)
+    assert verdict.mistake == "accepts every program"
+    assert "it stays where it is" in verdict.case
+
+
+@pytest.mark.parametrize("plus", [0.02, 0.15 * deg, 1.15 * deg])
+def test_limit_of_s_in_radians_is_told_its_unit(plus):
+    verdict = check("three_levers.2", least_test(plus=plus))
+    assert verdict.mistake.startswith("accepts: a step of ")
+    assert "S is in radians" in verdict.says[0] and "`0.02 * deg`" in verdict.says[0]

@@ -277,3 +277,20 @@ def test_invalid_arguments_are_refused(given, error, says):
 def test_degrees_for_radians_cause_a_warning():
     with pytest.warns(UserWarning, match="previous"):
         movement_explorer(ARM, (90, 90, 90), PLACE)
+
+
+def test_angles_are_named_only_where_a_posture_reaches_the_point(opened):
+    """The letters of gamma and beta are at their joints; that of alpha is on its ring."""
+    shown = opened(movement_explorer(ARM, SQUARE, PLACE))
+    ring, scene = shown.page.locator(".rk-handles .rk-joint"), shown.rk.locator("canvas").first
+
+    def named():
+        return {"γ", "β"} & set(scene.evaluate("canvas => canvas.words"))
+
+    assert ring.is_visible() and named() == {"γ", "β"}
+    for letter, value in (("x", -1.2), ("y", 0.5)):
+        shown.type(letter, value)
+    assert "No posture reaches this point" in shown.page.locator(".rk-says").inner_text()
+    assert not ring.is_visible() and not named()
+    shown.type("y", 1.6)
+    assert ring.is_visible() and named() == {"γ", "β"}

@@ -10,7 +10,7 @@ from test_true_statements_c import flat, numbers
 from test_true_statements_g import family, gripper, least_from, quietly
 
 from robokin import deg
-from robokin.course import answers
+from robokin.course import answers, book
 from robokin.jobs.obstacles import clearance
 from robokin.jobs.redundancy import methods, race
 
@@ -206,7 +206,7 @@ def test_best_first_posture_costs_what_section_6_says():
     )
     targets = r"\[\(2\.4, 0\.4\), \((\S+), (\S+)\)\]"
     second = complex(*said("09", "greed-explorer", targets))
-    assert second == complex(*said("09", "greed-run", f"pair = {targets}"))
+    assert second == complex(*said("09", "greed-code", f"pair = {targets}"))
     one, q = least_from(FIRST, STAND)
     two, _ = least_from(second, q)
     assert (one + two) / deg == pytest.approx(greedy, abs=0.05)
@@ -330,3 +330,71 @@ def test_rounds_repeat_or_drift_as_stated():
         )
         settled.append(1 + int(moving.sum()))
     assert sorted(settled)[-2:] == [7, 14]
+
+
+def test_pair_that_planning_cannot_improve_turns_only_gamma_in_its_second_task():
+    words = flat("09", "greed-hand")
+    assert "its targets are equally far from O, so the second task turns $\\gamma$ alone" in words
+    made = quietly("09", "greed-code")
+    pair = [
+        FIRST,
+        complex(*said("09", "greed-code", r"# try \[\(2\.4, 0\.4\), \((\S+), (\S+)\)\]")),
+    ]
+    assert abs(pair[0]) == pytest.approx(abs(pair[1]), abs=1e-12)
+    places = [(K.real, K.imag) for K in pair]
+    greedy = made["one_by_one"](STAND, places)
+    turned = abs(greedy[2] - greedy[1])
+    assert turned[0] == pytest.approx(np.pi / 2) and turned[1:].max() < 1e-6
+    # every plan of a fine grid
+    first, second = (in_circles(K, np.linspace(*ends(K), 241)) for K in pair)
+    turns = abs(first[:, None] - second).sum(axis=-1) + abs(first - STAND).sum(axis=-1)[:, None]
+    assert turns.min() > abs(np.diff(greedy, axis=0)).sum() - 1e-6
+
+
+def test_time_of_section_5_is_that_of_the_slowest_joint():
+    source = cells("09")["cost-time"]
+    assert "speeds = [30, 30, 30]  # try [30, 30, 60], [30, 60, 30]" in source
+    made = quietly("09", "cost-time")
+    alphas = np.linspace(*ends(FIRST), 40001)
+    change = abs(in_circles(FIRST, alphas) - STAND) / deg
+    assert made["T"].min() == pytest.approx(change.max(axis=1).min() / 30, abs=1e-3)
+    assert made["T_least"] == pytest.approx(
+        abs(least_from(FIRST, STAND)[1] - STAND).max() / deg / 30, abs=1e-4
+    )
+
+
+def test_wrong_programs_of_exercise_2_are_on_and_off_the_curve():
+    words = flat("09", "yourturn-3")
+    assert "they choose another point of the curve S" in words
+    assert "Others miss K or exceed a limit, so their postures are not on the curve." in words
+    rng, tasks = np.random.default_rng(7), []
+    while len(tasks) < 12:
+        K = rng.uniform(1.1, 2.9) * np.exp(1j * rng.uniform(0, 145) * deg)
+        if np.isfinite(ARM.alpha_range((K.real, K.imag))[0]):
+            tasks.append((K, rng.uniform(20, 170, 3) * deg))
+    on = []
+    exercise = book.find("three_levers.2", "exercises")
+    for _, _, text in exercise.wrongs:
+        program = exercise.program(text)
+        found = [np.asarray(program(np.array([K.real, K.imag]), q), dtype=float) for K, q in tasks]
+        on.append(
+            all(
+                q.min() > -1e-9 and q.max() < np.pi + 1e-9 and abs(gripper(q) - K) < 1e-6
+                for q, (K, _) in zip(found, tasks, strict=True)
+            )
+        )
+    assert sum(on) > len(on) / 2 and len(on) - sum(on) >= 7
+
+
+def test_most_postures_of_a_program_without_the_limit_of_gamma_are_within_it():
+    exercise = book.find("three_levers.2", "exercises")
+    ((_, words, text),) = [each for each in exercise.wrongs if "limit of gamma" in each[0]]
+    low, high = numbers(r"directions of (\S+)° to (\S+)°\)", words)
+    assert "even there, most of its postures are within the limits" in " ".join(words.split())
+    program, rng, past = exercise.program(text), np.random.default_rng(8), []
+    while len(past) < 100:
+        K = rng.uniform(1.1, 2.9) * np.exp(1j * rng.uniform(low, high) * deg)
+        if np.isfinite(ARM.alpha_range((K.real, K.imag))[0]):
+            q = program(np.array([K.real, K.imag]), rng.uniform(20, 170, 3) * deg)
+            past.append(q[0] > np.pi + 1e-6)
+    assert 0.05 < np.mean(past) < 0.5

@@ -6,8 +6,9 @@ import {alpha_range, family, KEPT, kinks, least, outside, withLevers} from "./le
 import {drawCosts, total} from "./levers_curve.js";
 import {alphaHandle, pointHandle} from "./levers_handles.js";
 import {fill} from "./blanks.js";
-import {number} from "./canvas.js";
+import {jointColor, number, shade} from "./canvas.js";
 import {copyButton} from "./copy.js";
+import {frames, origin} from "./kinematics.js";
 import {scrubbing} from "./controls.js";
 import {element, waiting} from "./elements.js";
 import {slider, stageOf, wordButton} from "./stage.js";
@@ -284,14 +285,32 @@ function armOf({arm, before, place}, costs, nowhere) {
   const alphas = costs
     ? [0, 1, 2, 3, 4].map(k => costs.low + ((costs.high - costs.low) * k) / 4)
     : [];
+  const q = costs ? posture(costs.alpha) : before;
   return {
     name: arm.name,
     chain: arm.chain,
-    q: costs ? posture(costs.alpha) : before,
+    q,
     faded: !costs,
     nowhere,
+    labels: costs ? named(arm, q) : [],
     ghosts: [...alphas.map(alpha => ({q: posture(alpha), past: false})), {q: before, past: true}],
   };
+}
+
+/**
+ * The letters of gamma and beta at their joints, O and B. The handle of joint A has its own.
+ * @param {ThreeLeverArm} arm
+ * @param {number[]} q
+ */
+function named({chain}, q) {
+  /** @type {number[][]} */
+  const joints = [];
+  frames(chain, q, joints);
+  return ["\u03B3", "\u03B2"].map((text, j) => ({
+    text,
+    at: origin(joints[j]),
+    color: shade(jointColor(j)),
+  }));
 }
 
 /**

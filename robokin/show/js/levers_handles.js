@@ -13,8 +13,11 @@ import {degrees, radians} from "./turns.js";
 /** @import {Handle} from "./handles.js" */
 /** @import {LeversExplorer, State} from "./levers_explorer.js" */
 
+const HIDDEN = [NaN, NaN, NaN];
+
 /**
- * The handle of joint A, which changes alpha. The gripper stays in place.
+ * The handle of joint A, which changes alpha. The gripper stays in place. If no
+ * posture reaches the point, there is no handle.
  * @param {LeversExplorer} data
  * @param {State} state
  * @returns {Handle}
@@ -33,7 +36,7 @@ export function alphaHandle({words}, state) {
     look: "rk-joint",
     mark: "\u03B1",
     color: "joint3",
-    at: () => jointA(state.alpha),
+    at: () => (Number.isNaN(alpha_range(state.arm, state)[0]) ? HIDDEN : jointA(state.alpha)),
     value: () => `${number(degrees(state.alpha), 1)}\u00B0`,
     grab(camera) {
       const from = camera.to(jointA(state.alpha));
