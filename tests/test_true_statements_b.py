@@ -355,7 +355,7 @@ def test_distances_are_proven_with_the_stated_numbers_of_intervals():
         r"(\d+) are enough to prove (\d+) mm, but (\d+) mm takes (\d+), because the true "
         r"clearance, (\S+) mm",
     )
-    no = 650  # halfway, the arm is nearer than that
+    (no,) = said("10", "whole-look", r"and (\d+) mm fails halfway\.")
     assert proven(a, b, H, yes * mm) == (True, many)
     assert proven(a, b, H, edge * mm) == (True, more)
     assert proven(a, b, H, no * mm) == (False, 2)
@@ -559,6 +559,14 @@ def test_six_samples_miss_the_minimum():
     assert options[right].reason.startswith(
         f"It is {true / mm:.0f} mm, {(seen - true) / mm:.0f} mm less than"
     )
+    assert "the ends of lever AK move by about half a metre, so the distance can fall by more " in (
+        options[1].reason
+    )
+    steps = np.diff(
+        ARM.points(path[0] + np.linspace(0, 1, 6)[:, None] * (path[1] - path[0])), axis=0
+    )
+    assert np.hypot(*np.moveaxis(steps[:, 2:], -1, 0)) == pytest.approx(0.515, abs=0.05)
+    assert seen - true > 100 * mm
 
 
 def test_task_prints_degrees_but_holds_radians():

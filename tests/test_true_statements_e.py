@@ -733,6 +733,25 @@ def test_a_point_inside_lever_ak_can_be_nearest_as_stated():
     assert 0.1 < along[far.argmin()] < 0.9, "the nearest point is an end of AK"
 
 
+def test_lever_ak_sweeps_across_the_obstacle_of_the_question_for_the_stated_reason():
+    """At the start, AK is above H. On the way to K2, the gripper goes below H and A stays above."""
+    question, options, right = asked("obstacle_avoidance.p5")
+    assert "from K = (1.2, 1.7) m to K1 = (1.9, 0.3) m" in question
+    H = np.array(numbers(r"The obstacle is at \((\S+), (\S+)\) m", question))
+    reason = "The rule takes the gripper below it while A stays above, so AK sweeps across it."
+    assert f"At the start, AK lies above the obstacle. {reason}" in options[0].reason
+    assert "takes the gripper below the obstacle, but A stays above it." in options[right].reason
+    a, b = via_path(ARM, START_10, K1_10, H)[:2]
+    points = ARM.points(a + np.linspace(0, 1, 2001)[:, None] * (b - a))
+    A, K = points[:, 2], points[:, 3]
+    share = (H[0] - A[:, 0]) / (K - A)[:, 0]
+    above = A[:, 1] + share * (K - A)[:, 1] - H[1]  # of the point of AK at the x of H
+    assert (share > 0).all() and (share < 1).all() and above[0] > 0.2 > 0 > above[-1]
+    assert (A[:, 1] > H[1]).all() and K[0, 1] > H[1] > K[-1, 1]
+    kept = via_path(ARM, START_10, K1_10, (1.5, 1.0))  # there the side of K2 is the same
+    assert least_distance(kept, np.array([1.5, 1.0])) > 0.9 * DISTANCE
+
+
 def said_pair(cell, pattern):
     one, two, kept = re.search(pattern, flat("10", cell)).groups()
     return [eval(one), eval(two)], float(kept)

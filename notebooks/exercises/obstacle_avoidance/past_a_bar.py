@@ -17,7 +17,8 @@ from .shared import ARM, Floats, direct, distances
 
 COUNT = 7
 KEPT = 0.1  # m: the distance that the exercise asks for
-MOST = 20  # points of the bar for the proof
+MOST = 8  # points of the bar for the proof: so few that their gaps matter
+TOLERANCE = 1e-5  # m: by how much the distance may be less, for rounding errors
 BETWEEN = 0.02  # m: between the measured points of the bar; the distance is then exact to 0.5 mm
 UNITS = {
     **dict.fromkeys(("gamma", "beta", "alpha"), ("°, where the arm stands", deg)),
@@ -36,7 +37,8 @@ def given(who: Any) -> Numbers:
 @cache
 def task(who: str) -> dict[str, Any]:
     """The numbers of `given`: drawn until folding keeps the distance, which evenly spaced points
-    prove, and the bar's ends alone do not suffice.
+    prove, the bar's ends alone do not suffice, and `way_round` gets past the bar only if it is
+    asked for more than the distance.
     """
     roll = dice("obstacle_avoidance", who)
     while True:
@@ -59,12 +61,15 @@ def task(who: str) -> dict[str, Any]:
         least = cheapest(start * deg, target, bar)
         if least is None or ends_are_enough(start * deg, target, bar):
             continue
+        most = (10 * np.ceil(least / deg / 10) + 30) * deg
+        if not gaps_matter(start * deg, target, bar, most):
+            continue
         return {
             **dict(zip(("gamma", "beta", "alpha"), (start * deg).tolist(), strict=True)),
             "target": tuple(target.tolist()),
             "bar": tuple(tuple(end.tolist()) for end in bar),
             "distance": KEPT,
-            "most": (10 * np.ceil(least / deg / 10) + 30) * deg,
+            "most": most,
         }
 
 
@@ -84,11 +89,30 @@ def ends_are_enough(q0: Floats, target: Floats, bar: Floats) -> bool:
     return path is not None and bool(clearance(ARM, path, points_of(bar)).min() > KEPT / 2)
 
 
+def gaps_matter(q0: Floats, target: Floats, bar: Floats, most: float) -> bool:
+    """Whether a path of `way_round` past evenly spaced points proves the distance if it is asked
+    for what half a gap adds to it, and does not if it is asked for the distance alone.
+    """
+    few = evenly(bar)
+    half = float(np.hypot(*(few[1] - few[0]))) / 2
+    path = way_round(ARM, q0, target, few, KEPT)
+    if path is not None and proven(path, few)[2] >= KEPT - TOLERANCE:
+        return False
+    path = way_round(ARM, q0, target, few, float(np.hypot(KEPT, half)))
+    return path is not None and bool(abs(np.diff(path, axis=0)).sum() <= most)
+
+
+def evenly(bar: Floats) -> Floats:
+    """As many evenly spaced points of the bar, with its ends, as the proof may use."""
+    points: Floats = bar[0] + np.linspace(0, 1, MOST)[:, None] * (bar[1] - bar[0])
+    return points
+
+
 def cheapest(q0: Floats, target: Floats, bar: Floats) -> float | None:
     """The movement of the cheapest path of the kind fold, swing, unfold, among those of hint 2;
     None: none keeps the distance.
     """
-    places, few = points_of(bar), bar[0] + np.linspace(0, 1, MOST)[:, None] * (bar[1] - bar[0])
+    places, few = points_of(bar), evenly(bar)
     low, high = ARM.alpha_range(target)
     if not low < high:
         return None
@@ -130,8 +154,8 @@ def form(answer: Any, given: Mapping[str, Any]) -> Answer:
         raise ValueError(f"wanted (my_path, my_points), got {in_words(answer)}")
     path, points = answer
     if path is None:
-        line = "my_path is None: way_round found no path. Ask it for a smaller distance or give it "
-        raise ValueError(line + "fewer points, or plan by hand, as hint 2 says.")
+        line = "my_path is None: way_round found no path. Ask it for a smaller distance, or plan "
+        raise ValueError(line + "by hand, as hint 2 says.")
     for name, part in (("my_path", path), ("my_points", points)):
         if part is ... or part is None:
             raise ValueError(f"{name} is missing: write it into its cell, then check again.")
@@ -238,14 +262,16 @@ def unproven(path: Floats, points: Floats, given: Mapping[str, Any]) -> list[tup
             says = f"Your points begin or end {gap / mm:.0f} mm from the end ({end[0]:g}, "
             return [("an end of the bar left out", says + f"{end[1]:g}) m of the bar.")]
     d, h, found = proven(path, points)
-    if found >= given["distance"] - 1e-5:
+    if found >= given["distance"] - TOLERANCE:
         return []
     near, wanted = apart(found / mm, given["distance"] / mm, 0)
+    closer = h > 1.01 * np.hypot(*(last - first)) / (MOST - 1)
+    more = f"give at most {MOST} points that are closer together, or " if closer else ""
     says = (
         f"The levers stay d = {d / mm:.1f} mm away from your {len(points)} points, which are up to "
         f"h = {h / mm:.0f} mm apart. For the bar between them this proves only {near} mm; the task "
-        f"asks for {wanted} mm. So the answer is still no: give at most {MOST} points that are "
-        "closer together, or ask for a path that stays farther away."
+        f"asks for {wanted} mm. So the answer is still no: {more}ask for a path that stays farther "
+        "away."
     )
     return [("not proven with these points", says)]
 
@@ -256,7 +282,7 @@ def too_near(path: Floats, places: Floats, name: str, distance: float) -> list[t
     if turn > 200:
         return [("too much movement", "The joints turn round and round.")]
     least = clearance(ARM, path, places)
-    if least.min() >= distance - 1e-5:
+    if least.min() >= distance - TOLERANCE:
         return []
     part, lever = np.unravel_index(least.argmin(), least.shape)
     near, wanted = apart(least.min() / mm, distance / mm, 0)

@@ -5,11 +5,35 @@ from typing import Any
 import numpy as np
 
 from robokin import deg, mm
-from robokin.jobs.obstacles import keeps
+from robokin.course.told import apart
+from robokin.jobs.obstacles import clearance, keeps
 
 from .shared import ARM, Floats, L, distances, gap_to, joints, sampled
 
 __all__ = ["deg", "distances", "halved", "joints", "mm", "np", "proven", "sampled", "gap_to"]
+
+
+MARGIN = 20 * mm  # if the true clearance is nearer to the distance, both answers are right
+TURN = 90 * deg  # the same, if a joint turns by more than this between two postures
+EITHER = "so a correct program may give either answer."
+
+
+def rejection(inputs: tuple[Any, ...], result: Any) -> str:
+    """The last motion that a correct program was given, and why its answer is right."""
+    path, H, distance = inputs
+    turn = float(abs(np.diff(np.asarray(path, dtype=float), axis=0)).max())
+    if turn > TURN:
+        return f"In the last motion of your test, a joint turns by {turn / deg:.0f}°, {EITHER}"
+    true = float(clearance(ARM, path, H).min())
+    away, asked = apart(true / mm, float(distance) / mm)
+    says = f"In the last motion of your test, the true clearance is {away} mm and the distance "
+    if abs(true - distance) <= MARGIN:
+        return f"{says}{asked} mm, {EITHER}"
+    says += f"{asked} mm. The program answered {bool(result)}, which is right."
+    if isinstance(result, np.bool_):
+        says += f" But it is NumPy's {bool(result)}, for which `is {bool(result)}` does not hold: "
+        says += "write bool(safe(...))."
+    return says
 
 
 def proven(path: Any, H: Any, distance: float) -> bool:
