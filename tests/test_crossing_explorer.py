@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 import test_explorers
 from axe_playwright_python.sync_playwright import Axe
-from canvas_words import COVERED, RECORD, faults
+from canvas_words import COVERED, LINES, RECORD, faults
 
 from robokin import SCARA, three_lever, two_link
 from robokin.show import crossing_explorer
@@ -284,6 +284,44 @@ def test_names_beside_the_curves_cover_neither_a_curve_nor_a_point(
             covered = shown.page.evaluate("covered")
             assert {text for text, _ in covered} == {"right elbow", "left elbow"}
             assert [each for each in covered if each[1] > 12] == [], place
+        shown.page.close()
+
+
+@pytest.mark.parametrize(
+    "l1, l2, base, radii",
+    [(1, 0.7, (0, 0), [1.7, 0.3]), (0.45, 0.65, (0.15, -0.1), [1.1, 0.2]), (1, 1, (0, 0), [2])],
+)
+def test_both_rims_of_the_reach_are_drawn_and_labelled(browser, opened, l1, l2, base, radii):
+    view = crossing_explorer(two_link(l1, l2, base), np.add(base, (0, 0.8)))
+    with browser.new_context(viewport={"width": 914, "height": 800}) as small:
+        small.add_init_script(f"{RECORD}\n{LINES}")
+        shown = opened(view, within=small)
+        shown.look()
+        words = shown.page.evaluate("canvasWords().flatMap(each => each.words.map(w => w.text))")
+        lines = shown.page.evaluate(
+            "[...document.querySelectorAll('canvas')].flatMap(each => each.lines ?? [])"
+        )
+        shown.page.close()
+    assert [text for text in words if re.fullmatch(r"\S+ m", text)] == [f"{r} m" for r in radii]
+    rims = [np.array(line["points"]) for line in lines if len(line["points"]) == 121]
+    wide = [float(np.ptp(rim[:, 0])) for rim in rims if np.allclose(rim[0], rim[-1])]
+    assert np.array(wide) / wide[0] == pytest.approx(np.array(radii) / radii[0])
+
+
+def test_the_red_dashes_have_the_length_that_the_sentence_states(browser, opened):
+    with browser.new_context(viewport={"width": 914, "height": 800}) as small:
+        small.add_init_script(RECORD)
+        shown = opened(FIRST, within=small)
+        for y in (0.8, -1.73, 1.99, 0):
+            says = moved(shown, 0.6 if abs(y) < 1.9 else 0.1, y).says
+            words = shown.page.evaluate(
+                "canvasWords().flatMap(each => each.words.map(w => w.text))"
+            )
+            told = re.findall(r"jumps by (\S+) m", says)
+            assert [float(text[:-2]) for text in words if re.fullmatch(r"\S+ m", text)][
+                : len(told)
+            ] == [float(each) for each in told]
+            assert bool(told) == (y != 0) and words.count("2 m") == 1
         shown.page.close()
 
 

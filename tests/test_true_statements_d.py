@@ -1,5 +1,6 @@
 """Statements of labs 03 and 10 to 12 that new readers refuted, checked by a second calculation."""
 
+import itertools
 import re
 from itertools import pairwise
 
@@ -310,6 +311,10 @@ def test_jumps_in_the_first_views_are_as_stated():
     low, high, far = numbers(r"heights between (\S+) m and (\S+) m or beyond ±(\S+) m,", told)
     assert "link_2 = 0.7 " in cells("12")["elimination-view"] and far == pytest.approx(1 + 0.7)
     assert [low, high] == pytest.approx([-0.3, 0.3]) and high == pytest.approx(1 - 0.7)
+    assert "It jumps where $|y_3|$ is between $|l_1 - l_2|$ and $l_1 + l_2$." in told
+    for l2, y in itertools.product((0.5, 0.7, 1.0, 1.2), np.arange(0.05, 2.3, 0.1)):
+        half = (y * y + 1 - l2**2) / 2  # on the line x3 = 0, the elbows are at x2 = ± the root
+        assert (1 - (half / y) ** 2 > 0) == (abs(1 - l2) < y < 1 + l2)
     rng = np.random.default_rng(5)
     for x, y in rng.uniform(-1.6, 1.6, (400, 2)):
         d2 = x * x + y * y
@@ -381,9 +386,18 @@ def test_jump_of_both_angles_at_the_smallest_radius_is_as_stated():
     assert len(jumps) == 2
     told = flat("12", "sides-drag")
     low, high, line, turn = numbers(
-        r"\$q_2\$ jumps from (\S+)° to (\S+)°, by (\S+)° or, the short way round, by (\S+)°", told
+        r"\$q_2\$ jumps between (\S+)° and (\S+)°, by (\S+)° or, the short way round, by (\S+)°",
+        told,
     )
-    (first,) = numbers(r"\$q_1\$ jumps, too, by (\S+)°\.", told)
+    (first,) = numbers(r", and \$q_1\$ by (\S+)°\.", told)
+    pairs = [tuple(np.round(q[k : k + 2, 1], 1)) for k in jumps]
+    assert pairs == [(high, low), (low, high)], "it jumps once in each direction"
+    least, small, most, great = numbers(
+        r"jumps least at (\S+) m, by (\S+) m, and most at (\S+) m, by (\S+) m\. There,", told
+    )
+    lengths = 2 * np.sqrt(1 - made["radii"] ** 2 / 4)
+    assert [made["radii"][lengths.argmin()], made["radii"][lengths.argmax()]] == [least, most]
+    assert [round(lengths.min(), 2), round(lengths.max(), 2)] == [small, great] and most == 0.5
     for k in jumps:
         change = np.diff(q[k : k + 2], axis=0)[0]
         assert abs(change[1]) == pytest.approx(line, abs=0.06)

@@ -1051,8 +1051,8 @@ def test_generated_c_has_only_doubles_and_both_texts_describe_the_rims_alike():
 
 
 def test_between_two_jumps_the_arm_misses_the_tip():
-    said = r"drifts in between, up to (\S+) m from the marked tip\."
-    (most,) = re.search(said, flat("12", "casts-drag")).groups()
+    said = r"drifts in between: at \$y_3 = (\S+)\$ m, up to (\S+) m from the marked tip\."
+    where, most = re.search(said, flat("12", "casts-drag")).groups()
     greatest = []
     made = {"np": np}
     for name in ("casts-motion", "casts-player"):
@@ -1072,12 +1072,13 @@ def test_between_two_jumps_the_arm_misses_the_tip():
         greatest.append(miss.max())
     assert round(max(greatest), 2) == float(most)
     told = flat("12", "casts-drag")
-    assert "It jumps wherever $x_3^2$ passes a whole number," in told
-    assert "The curve shows this for the line at 1.6 m;" in told
-    exec(cells("12")["casts-drift"].replace("drift_figure(1.6)", "fig = drift_figure(1.6)"), made)
-    *thin, with_int, with_double = made["fig"].axes[0].lines
-    assert np.allclose([line.get_xdata()[0] ** 2 for line in thin], range(2, 13))
-    x, away = with_int.get_xdata(), with_int.get_ydata()
-    falls = np.flatnonzero(np.diff(away) < -0.02)
-    assert falls.tolist() == np.flatnonzero(np.diff(np.floor(x * x))).tolist()
-    assert f"{away.max():.2f}" == most and with_double.get_ydata().max() < 1e-12
+    assert "It jumps wherever $x_3^2$ passes a whole number, first" in told
+    first = float(re.search(r"first at \$\\sqrt 2 = (\S+)\$ m", told)[1])
+    x, (with_int, with_double) = made["reach_x"], made["off_tip"]
+    assert round(np.sqrt(2), 2) == first and x[0] < first
+    row = made["lift"].tolist().index(float(where))
+    assert f"{with_int[row].max():.2f}" == f"{with_int.max():.2f}" == most
+    for away in with_int:
+        leaps = np.flatnonzero(abs(np.diff(away)) > 0.01)
+        assert leaps.tolist() == np.flatnonzero(np.diff(np.floor(x * x))).tolist()
+    assert with_double.max() < 1e-12

@@ -124,7 +124,7 @@ def crossing_explorer(
         "heads": ["", f"x2, {unit}", f"y2, {unit}"],
     }
     still = Sketch(alt, title=page["title"], unit=unit, x="x", y="y", width=6.4, height=5.6)
-    _draw(still, arm, geometry.base, place, rows, k or 0, size)
+    _draw(still, arm, geometry, place, rows, k or 0, size)
     return Explorer(data, still)
 
 
@@ -149,14 +149,15 @@ def _summary(
 def _draw(
     sketch: Sketch,
     arm: ClosedFormArm,
-    base: ArrayLike,
+    geometry: TwoLinkGeometry,
     place: Floats,
     rows: Floats,
     k: int,
     size: float,
 ) -> None:
-    """Draw the arm with both elbows and their tracks."""
-    base, turn = np.asarray(base), np.linspace(-np.pi, np.pi, 721)
+    """Draw the arm with both elbows and their tracks, and the rims of its reach."""
+    base, rims = np.asarray(geometry.base), [arm.reach, abs(geometry.l1 - geometry.l2)]
+    turn = np.linspace(-np.pi, np.pi, 721)
     line = np.tile(place, (len(turn), 1))
     line[:, k] = base[k] + arm.reach * np.sin(turn / 2)
     tracks = _elbows(arm, arm.ik(line)) / size
@@ -164,8 +165,9 @@ def _draw(
         beside = base / size + (1.04, 0.96)[side] * (tracks[:, side] - base / size)
         sketch.ax.plot(*beside.T, color=color, ls=style, lw=1.6)
     sketch.ax.plot(*(line[np.isfinite(tracks[:, 0, 0])] / size).T, color=REMARK, lw=1, ls=":")
-    ring = base / size + arm.reach / size * np.stack([np.cos(turn), np.sin(turn)], axis=-1)
-    sketch.ax.plot(*ring.T, color=FAINT, lw=1)
+    ring = np.stack([np.cos(turn), np.sin(turn)], axis=-1)
+    for radius in rims:
+        sketch.ax.plot(*((base + radius * ring) / size).T, color=FAINT, lw=1)
     for side, elbow in reversed(list(enumerate(_elbows(arm, rows)))):
         sketch.levers([base, elbow, place], ["", SIDES[side]], dashed=side > 0)
     sketch.point(place, "tip", away=(1, 0.3))

@@ -146,9 +146,18 @@ def law(case: Case, yours: Place, wanted: Place) -> str | None:
     name = "right" if side > 0 else "left"
     says = f"should be {wanted}, {l1:.4g} m from the base and {l2:.4g} m from the tip"
     if not yours.found:
+        low, high = abs(l1 - l2), l1 + l2
+        if low <= d <= high:
+            return (
+                f"{says}; the tip is {d:.9g} m away, and the arm reaches from {low:.4g} m to "
+                f"{high:.4g} m"
+            )
+        which, (is_at, rim) = (
+            ("outer", apart(d, high, 3)) if d > high else ("inner", apart(d, low, 3))
+        )
         return (
-            f"{says}; the tip is {d:.9g} m away, and the arm reaches from {abs(l1 - l2):.4g} m to "
-            f"{l1 + l2:.4g} m"
+            f"{says}; the tip is {is_at} m away (the case is rounded), and the {which} rim is at "
+            f"{rim} m: treat it as if it were on the rim"
         )
     if abs(one - l1) < 1e-6 and abs(two - l2) < 1e-6:
         return f"{says}, to the {name} of the line from base to tip; yours is on the other side"

@@ -6,6 +6,7 @@ import {fill} from "./blanks.js";
 import {clear, colors, spot, stroke} from "./canvas.js";
 import {movedTo} from "./crossing.js";
 import {singularities} from "./geometries.js";
+import {distance} from "./kinematics.js";
 import {point} from "./mark.js";
 import {distance2} from "./rows.js";
 
@@ -13,6 +14,8 @@ import {distance2} from "./rows.js";
 /** @import {Camera} from "./camera.js" */
 /** @import {CrossingExplorer, Found, State} from "./crossing_explorer.js" */
 
+const HOLE = 1e-9; // times the reach: a smaller hole is a rounding error
+const SHORT = 0.01; // times the reach: a shorter jump has no label
 const RAIL = 6; // px: the distance of a drawn track from the circle
 
 /**
@@ -52,21 +55,51 @@ export function posed(data, state, found) {
     ghosts: rows.filter((_, k) => k !== chosen).map(q => ({q, past: false})),
     /** @type {(g: Context, cam: Camera) => void} */
     under: (g, cam) => drawTracks(g, cam, data, state, found),
-    labels:
-      divisor === null
-        ? []
-        : [
-            {
-              text: fill(words.line, lineOf(data)),
-              at: zeroLine(data)[0],
-              color: colors.soft,
-              weight: "",
-            },
-          ],
+    labels: [
+      ...jumpOf(data, found),
+      ...rimsOf(data).map(r => ({text: told(data, r), at: below(data, r)})),
+      ...(divisor === null ? [] : [{text: fill(words.line, lineOf(data)), at: zeroLine(data)[0]}]),
+    ].map(label => ({color: colors.soft, weight: "", ...label})),
     /** @type {(g: Context, cam: Camera) => void} */
     over: (g, cam) => drawMarks(g, cam, found),
   };
 }
+
+/**
+ * The length of the jump, at the middle of the red dashes; nothing if there is no jump.
+ * @param {CrossingExplorer} data
+ * @param {Found} found
+ */
+function jumpOf(data, {crossing: [from, to]}) {
+  const jump = from ? distance(from, to) : 0;
+  if (jump < SHORT * data.arm.geometry.reach) return [];
+  const middle = from.map((x, i) => (x + to[i]) / 2);
+  return [{text: told(data, jump), at: middle, color: colors.alarm}];
+}
+
+/**
+ * The radii of the rims of the reach: the outer one and, if there is a hole, the inner one.
+ * @param {CrossingExplorer} data
+ */
+function rimsOf({arm}) {
+  const {reach, l1, l2} = arm.geometry,
+    inner = Math.abs(l1 - l2);
+  return inner > HOLE * reach ? [reach, inner] : [reach];
+}
+
+/**
+ * A length with its unit.
+ * @param {CrossingExplorer} data
+ * @param {number} length
+ */
+const told = ({unit}, length) => `${+(length / unit.size).toFixed(3)} ${unit.name}`;
+
+/**
+ * A point of a rim, below the base and to its left.
+ * @param {CrossingExplorer} data
+ * @param {number} r
+ */
+const below = ({arm: {geometry}}, r) => [geometry.base[0] - 0.6 * r, geometry.base[1] - 0.8 * r, 0];
 
 /**
  * The name and the value of the coordinate of the tip at which the formula divides by 0.
@@ -103,11 +136,13 @@ function drawTracks(g, {to}, data, {tip}, {tracks, crossing}) {
   const {arm, divisor} = data,
     {base, reach} = arm.geometry,
     k = divisor ?? 0;
-  const rim = Array.from({length: 121}, (_, i) => {
-    const turn = (i * Math.PI) / 60;
-    return to([base[0] + reach * Math.cos(turn), base[1] + reach * Math.sin(turn), 0]);
-  });
-  stroke(g, rim, colors.rim, 1);
+  for (const r of rimsOf(data)) {
+    const rim = Array.from({length: 121}, (_, i) => {
+      const turn = (i * Math.PI) / 60;
+      return to([base[0] + r * Math.cos(turn), base[1] + r * Math.sin(turn), 0]);
+    });
+    stroke(g, rim, colors.rim, 1);
+  }
   const line = [-reach, reach].map(u => to(movedTo(arm, tip, k, u)));
   stroke(g, line, colors.soft, 1.4, [1.5, 4]);
   if (divisor !== null) stroke(g, zeroLine(data).map(to), colors.soft, 1.2);
