@@ -336,7 +336,7 @@ def test_half_the_duration_and_half_the_blend_cost_the_stated_accelerations():
     assert told[0.05, 20.0] / before == pytest.approx(share, abs=0.05)
     assert (before, told[0.05, 20.0]) == pytest.approx((least, most), abs=0.05)
     # why the factor of joint 3 is larger than that of the tool
-    assert "That of the tool only doubles, but nearer to via, the arm is stretched" in text
+    assert "The tool's acceleration only doubles, but nearer to via, the arm is stretched" in text
     corner = blend(g["start"], g["via"], g["goal"], np.array([0.1, 0.05]), 0.5)
     q = IRB140.ik(corner)[:, 1]
     wrist = corner.translation - 65 * mm * corner.rotation.as_matrix()[..., 2]
