@@ -135,15 +135,25 @@ def test_advice_on_lost_steps_names_the_number_to_change():
         times = ramp(48, start, end, seconds)
         return any(m.run(times, np.ones(48), 0, load).lost for m in (MOTOR, WEAK))
 
+    def named(*numbers):
+        return dict(zip(("start", "end", "seconds"), numbers, strict=True))
+
     def says(*numbers):
-        made = dict(zip(("start", "end", "seconds"), numbers, strict=True))
-        return check("rotor.1", made, who="Ada").says[0]
+        return check("rotor.1", named(*numbers), who="Ada").says[0]
 
     assert loses(1.4 * f, 1.4 * f, 0.1) and "has to rise" in says(1.4 * f, 1.4 * f, 0.1)
     fast = 1.05 * strong, 1.5 * strong, 0.25
     assert loses(*fast) and f"cannot follow {fast[0]:.0f} pulses/s: lower `start`" in says(*fast)
     near = 0.95 * f, 1.6 * f, 0.16
     assert loses(*near) and "begins too close" in says(*near) and "lower `start`" in says(*near)
+    between = (f + strong) / 2, 2 * f, 0.2  # both motors lose steps, but only one cannot start
+    assert MOTOR.run(ramp(48, *between), np.ones(48), 0, load).lost
+    assert f"the weaker motor follows at most {f:.0f} pulses/s: lower `start`" in says(*between)
+    for at in ((0.95 * f, 3 * f, 0.05), between):
+        assert check("rotor.1", named(*at), who="Ada").mistake == "begins too fast"
+    flat = check("rotor.1", named(0.9 * f, 0.9 * f, 0), who="Ada")
+    assert flat.mistake == "no ramp" and "has to rise" in flat.says[0]
+    assert loses(0.9 * f, 0.9 * f, 0) is False and "s are allowed" in flat.says[0]
     assert not any(loses(k * f, *near[1:]) for k in (0.6, 0.5))
     steep = 0.6 * f, 2 * f, 0.05
     assert loses(*steep) and "raise `seconds`, or lower `end`" in says(*steep)
@@ -163,7 +173,7 @@ def test_four_times_the_inertia_needs_twice_the_friction_to_halve_the_frequency(
 
 def test_shortest_ramp_for_the_load_is_as_stated():
     lab = json.loads((NOTEBOOKS / "13_rotor.ipynb").read_text(encoding="utf-8"))
-    (text,) = ["".join(cell["source"]) for cell in lab["cells"] if cell["id"] == "load-take"]
+    (text,) = ["".join(cell["source"]) for cell in lab["cells"] if cell["id"] == "ramp-answer"]
     said = re.search(r"(\d+) ms\. But from (\d+) to (\d+) ms, steps are lost again", text)
     least, again, until = map(int, said.groups())
     kept = [
@@ -190,6 +200,25 @@ def test_ramps_lose_steps_where_the_lab_says():
     for ms in (180, 190, 200):
         assert lost_at(ms) > ms
     assert lost_at(170) is lost_at(210) is None
+
+
+def test_only_the_long_ramp_saves_every_step():
+    """What to look at when other ramp times are tried."""
+    lab = json.loads((NOTEBOOKS / "13_rotor.ipynb").read_text(encoding="utf-8"))
+    source = {cell["id"]: "".join(cell["source"]) for cell in lab["cells"]}
+    short, long, alone, end = re.search(
+        r"\$t_r\$ = (\S+) and (\S+): only (\S+) saves every step, but this ramp no longer reaches "
+        r"(\d+)\.",
+        source["ramp-look"],
+    ).groups()
+    assert {short, long} < set(re.findall(r"[\d.]*\d", source["ramp-code"].split("# try")[1]))
+    lost, tops = {}, {}
+    for t_r in (short, long):
+        times = ramp(48, 40, 160, float(t_r))
+        lost[t_r] = [48 - made_steps(MOTOR, times, load) for load in (0, 3e-6)]
+        tops[t_r] = 1 / np.diff(times).min()
+    assert lost[long] == [0, 0] and alone == long and sum(lost[short]) > 0
+    assert tops[long] < 0.95 * int(end) < tops[short]
 
 
 @pytest.mark.parametrize("ms", [50, 100, 200, 300])

@@ -130,6 +130,24 @@ def test_page_reports_the_lost_steps_that_python_finds(opened):
     assert told == ours and code["motor"].rotor == "passive" and code["motor"].windings == 4
 
 
+def test_page_tells_when_the_last_pulse_comes_and_why_there_is_no_ramp(opened):
+    shown = opened(motor_explorer())
+
+    def last():
+        seen = shown.look()
+        found = re.match(r"48 pulses in ([\d,.]+)\sms, (.*?):.* ste", seen.says)
+        ours = 1000 * shown.code(seen)["times"][-1]
+        assert float(found[1].replace(",", "")) == pytest.approx(ours, abs=0.5)
+        return found[2]
+
+    assert last() == "160 per second from the first to the last"
+    shown.type("ramp time", 190)
+    assert last().startswith("from 40 up to 160 per second")
+    shown.type("ramp from", 200)
+    assert last() == "160 per second from the first to the last (no ramp"
+    assert "(no ramp: it would begin at 200): 44 of 48" in shown.look().says
+
+
 @pytest.mark.parametrize("motor", [Stepper(), MOTORS["table 2"]], ids=["table 1", "table 2"])
 def test_a_motor_alone_has_no_others_in_its_menus(opened, motor):
     whole, alone = motor_explorer(motor), motor_explorer(motor, alone=True)

@@ -24,7 +24,7 @@ from robokin.course.book import lab as content
 from robokin.course.questions import filled
 from robokin.jobs import redundancy
 from robokin.jobs.obstacles import keeps, way_round
-from robokin.jobs.steppers import Stepper, ramp
+from robokin.jobs.steppers import SLOWEST, Stepper, ramp
 from robokin.jobs.visit_collect import Task, travel_time, workspace
 from robokin.show import motor_explorer
 
@@ -651,6 +651,16 @@ def test_start_frequency_and_lost_steps_are_as_stated(capsys):
         motor.run(ramp(48, *x), np.ones(48)).lost for f in tempos for x in ((f, f, 0), (40, f, 0.1))
     }
     assert min(lost - {0}) == few
+    start, tempo, made = map(
+        int,
+        re.search(
+            r"all 48 from (\d+) pulses per second on, .* at (\d+) it makes (\d+) steps",
+            options[3].reason,
+        ).groups(),
+    )
+    assert steps(tempo) == made > 0 and tempos.start < start < tempos.stop
+    every = {f: motor.run(np.arange(1, 49) / f, np.ones(48)).lost for f in tempos}
+    assert every[start - 10] < 48 and {n for f, n in every.items() if f >= start} == {48}
 
 
 def test_a_load_torque_holds_the_rotor_back_as_stated():
@@ -664,13 +674,18 @@ def test_a_load_torque_holds_the_rotor_back_as_stated():
         "13", "load-torque", r"The lag is (\d+)°: \$M \\sin (\d+)°\$ is (\d+) mN m"
     )
     makes, fails = said("13", "load", r"Then set (\d+) and press .* set (\d+) and press")
+    slow, tempo = said(
+        "13", "load-torque", r"With (\d+) mN m, it cannot follow even (\d+) pulses/s"
+    )
     least, after, step, pull, most = said(
         "13",
         "load-torque",
         r"With (\d+) mN m, the weight runs away.* lag is (\d+)° \+ (\d+)°, .* pulls with only "
-        r"(\d+) mN m.* here (\S+) mN m, is its \*starting torque\*",
+        r"(\d+) mN m.* makes a step from rest, here (\S+) mN m, is its \*starting torque\*",
     )
     motor = run("13", "load-hand")["motor"]
+    assert slow == makes and tempo == SLOWEST and motor.start_frequency(slow / 1000) == 0
+    assert abs(after_pulses(motor, slow / 1000, tempo)) > 4
     torque = 1000 * motor.torque
     assert (weight, of, sine) == (held, torque, lag) and pulls == held
     assert torque * math.sin(math.radians(lag)) == pytest.approx(held)
@@ -695,6 +710,35 @@ def one_pulse(motor, load):
         return state[1], (motor.torque * math.sin(math.pi / 2 - state[0]) - drag) / motor.inertia
 
     return solve_ivp(moves, (0, 0.5), (rest, 0), rtol=1e-8, atol=1e-8).y[0, -1]
+
+
+def after_pulses(motor, load, tempo):
+    """How many of 48 steps a magnet loses under this load, without rounding; SciPy."""
+    bent = math.asin(load / motor.torque)
+    state, times = (-bent, 0.0), [*(np.arange(1, 49) / tempo), 48 / tempo + 0.4]
+
+    def moves(_, state, field):
+        drag = motor.damping * state[1] + load
+        return state[1], (motor.torque * math.sin(field - state[0]) - drag) / motor.inertia
+
+    for k, (a, b) in enumerate(pairwise([0.0, *times])):
+        field = (k * math.pi / 2,)
+        state = solve_ivp(moves, (a, b), state, rtol=1e-8, atol=1e-8, args=field).y[:, -1]
+    return 48 - (state[0] + bent) / (math.pi / 2)
+
+
+def test_loaded_magnet_has_a_resonance_below_its_start_frequency():
+    """The lab says so next to the frequency in the view, which bisection finds."""
+    mNm, top, below = said(
+        "13",
+        "load-torque",
+        r"With (\d+) mN m, it has a resonance: its maximum start frequency is (\d+) pulses/s, but "
+        r"at (\d+) it loses steps",
+    )
+    motor = run("13", "load-hand")["motor"]
+    assert motor.start_frequency(mNm / 1000) == top > below
+    lost = [after_pulses(motor, mNm / 1000, tempo) for tempo in (below, top, top + 1)]
+    assert lost[1] == pytest.approx(0, abs=0.01) and min(lost[0], lost[2]) > 4
 
 
 def lost_at(motor, tempos, each):
@@ -745,11 +789,16 @@ def test_resonance_of_the_iron_rotor_is_where_the_lab_says():
     spring = motor.periods * motor.torque / motor.inertia
     slower = spring - (motor.damping / 2 / motor.inertia) ** 2
     assert below < math.sqrt(slower) / 2 / math.pi < math.sqrt(spring) / 2 / math.pi < above
-    assert motor.start_frequency() > high  # bisection misses the resonance
+    (top,) = said("13", "deeper-iron", r"Bisection misses this: .* start frequency is (\d+)\.")
+    assert motor.start_frequency() == top > high
 
 
 def test_magnet_of_the_lab_has_no_resonance_below_its_start_frequency():
-    least, top = said("13", "missed-look", r"none at any whole frequency from (\d+) to (\d+)\.")
+    least, top = said(
+        "13",
+        "missed-look",
+        r"Without a load, this motor loses none at any whole frequency from (\d+) to (\d+)\.",
+    )
     motor = run("13", "load-hand")["motor"]
     lost = lost_at(motor, range(int(least), int(top) + 2), 400)
     assert lost.pop(int(top) + 1) > 0 and set(lost.values()) == {0}
@@ -759,7 +808,7 @@ def test_half_steps_are_lost_in_multiples_of_eight():
     (call,) = re.findall(r"Stepper\(.*\)(?=\))", cells("13")["half-explorer"])
     motor = eval(call, {"Stepper": Stepper})
     assert "the table has eight rows" in cells("13")["missed-look"]
-    assert "A multiple of eight" in cells("13")["missed-look"] and len(motor.currents) == 8
+    assert "A multiple of eight" in cells("13")["half-look"] and len(motor.currents) == 8
     lost = {f: motor.run(np.arange(1, 49) / f, np.ones(48)).lost for f in range(160, 501, 20)}
     assert lost[160] == 0 and max(lost.values()) > 0 and not any(n % 8 for n in lost.values())
 

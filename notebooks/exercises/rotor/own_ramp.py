@@ -22,6 +22,7 @@ SHARE = 0.75  # the time allowed, as a share of the shortest time without a ramp
 NEAR = 0.85  # a start above this share of the start frequency leaves no room for a rise
 ONLY_FULL = "only with the full torque"
 LONGEST = 10.0  # s: a longer move is not simulated
+RISE = "The frequency has to rise: `end` above `start`, and `seconds` above 0."
 Fault = tuple[str, str]
 Ramp = tuple[float, float, float]  # start and end in pulses/s, and its time in s
 
@@ -78,7 +79,8 @@ def faults(answer: Ramp, numbers: Any) -> list[Fault]:
         late = answer[2] > 1 and ramp(PULSES, *answer[:2], answer[2] / 1000)[-1] <= within
         if late:
             says += " The time of the ramp is in seconds."
-        found.append(("milliseconds for seconds" if late else "too slow", says))
+        name = "no ramp" if is_flat(answer) else "too slow"
+        found.append(("milliseconds for seconds" if late else name, says))
     return found
 
 
@@ -91,6 +93,8 @@ def too_slow(answer: Ramp, within: float) -> str:
     """Why the move takes too long, and what to change."""
     start, end, seconds = answer
     needed = PULSES / within
+    if is_flat(answer):
+        return RISE
     if end < needed:
         return f"The mean frequency should be at least {ceil(needed)} pulses/s: raise `end`."
     top = 1 / float(np.diff(ramp(PULSES, *answer)).min())
@@ -104,14 +108,26 @@ def too_slow(answer: Ramp, within: float) -> str:
 
 def why_lost(answer: Ramp, motor: Stepper, load: float) -> Fault:
     """The name of the mistake in a ramp with which this motor loses steps, and what to change."""
-    start, end, seconds = answer
-    if seconds == 0 or end < 1.01 * start:
-        return "no ramp", "The frequency has to rise: `end` above `start`, and `seconds` above 0."
-    top = fastest_start(motor, load)
+    start, end, _ = answer
+    if is_flat(answer):
+        return "no ramp", RISE
+    top, weak = fastest_start(motor, load), fastest_start(WEAK, load)
     if start > top:
-        change = f"From rest, it cannot follow {start:.0f} pulses/s: lower `start`."
+        return (
+            "begins too fast",
+            f"From rest, it cannot follow {start:.0f} pulses/s: lower `start`.",
+        )
+    if start > weak:
+        change = f"From rest, the weaker motor follows at most {weak:.0f} pulses/s: lower `start`."
+        return "begins too fast", change
+    if start > NEAR * weak:
+        change = "It begins too close to the weaker motor's start frequency: lower `start`."
         return "begins too fast", change
     change = "The frequency rises too steeply or too far: raise `seconds`, or lower `end`."
-    if start > NEAR * fastest_start(WEAK, load):
-        change = "It begins too close to the weaker motor's start frequency: lower `start`."
     return "too steep or too fast", change
+
+
+def is_flat(answer: Ramp) -> bool:
+    """Whether the frequency hardly rises."""
+    start, end, seconds = answer
+    return seconds == 0 or end < 1.01 * start

@@ -33,11 +33,14 @@ def missed() -> dict[str, dict[int, int]]:
 
 def p10() -> dict[str, Any]:
     found = sorted({n for ways in missed().values() for n in ways.values()} - {0})
+    alone = missed()["without a ramp"]
     return {
         "some": ", ".join(map(str, found)),
         "few": found[0],
         "tempo": 160,
-        "lost": missed()["without a ramp"][160],
+        "lost": alone[160],
+        "made": PULSES - alone[160],
+        "all_from": max(f for f, n in alone.items() if n < PULSES) + 10,  # the next frequency
         "runs": sum(map(len, missed().values())),
         "right": "only fours" if np.gcd.reduce(found) == 4 else "any number",
     }

@@ -1,5 +1,6 @@
 // The sentences of the motor explorer, and the Python code for a motor and a run.
 
+import {lastOf} from "./bench.js";
 import {fill} from "./blanks.js";
 import {number} from "./canvas.js";
 import {behind, holdingTorque, startFrequency, startingTorque, stepOf} from "./rotor.js";
@@ -63,15 +64,16 @@ export function outcome(bench, {words: says, pulses}) {
   const {state} = bench,
     lost = state.sign * bench.run().lost,
     times = bench.times(),
+    last = number(1000 * lastOf(times), 0),
     top = Math.max(...times.map((t, k) => 1 / (t - (k ? times[k - 1] : 0))));
-  const how =
-    state.ramp > 0 && state.start < state.end
-      ? fill(says.ramped, {start: number(state.start, 0), top: number(top, 0)})
-      : fill(says.plain, {end: number(state.end, 0)});
+  const {start, end} = state;
+  let how = says.plain;
+  if (state.ramp > 0) how = start < end ? says.ramped : says.flat;
+  how = fill(how, {start: number(start, 0), end: number(end, 0), top: number(top, 0)});
   let which = lost > 0 ? says.someLost : says.tooMany;
   if (lost === 0) which = says.allMade;
   else if (lost > pulses) which = says.runsBack;
-  const told = fill(which, {pulses, how, lost: Math.abs(lost)});
+  const told = fill(which, {pulses, last, how, lost: Math.abs(lost)});
   return `${told} ${fill(says.slow, {slow: bench.slow()})}`;
 }
 
