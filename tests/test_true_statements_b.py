@@ -915,7 +915,7 @@ def test_errors_near_the_line_x3_0_are_as_stated():
         return max(abs(np.hypot(*elbow) - 1), abs(np.hypot(elbow[0] - x3, elbow[1] - 1) - 1))
 
     x3, off = said(
-        "12", "edges-look", r"(\S+) nm from \$x_3 = 0\$, the elbow by section 3 is (\S+) nm off"
+        "12", "edges-look", r"(\S+) nm from \$x_3 = 0\$, the elbow from section 3 is (\S+) nm off"
     )
     assert round(1e9 * error(made["elbow_by_root"], x3 * 1e-9)) == off
     assert made["edges"][f"{x3:.0f} nm off x3 = 0"][0] == (x3 * 1e-9, 1.0)

@@ -308,7 +308,7 @@ def test_jumps_in_the_first_views_are_as_stated():
     assert sorted(near) == [low, height] == [-height, height]
     assert round(2 * np.sqrt(1 - height**2 / 4), 3) == jump
     told = flat("12", "elimination-text")
-    low, high, far = numbers(r"heights between (\S+) m and (\S+) m or beyond ±(\S+) m,", told)
+    low, high, far = numbers(r"reach between (\S+) m and (\S+) m and beyond ±(\S+) m,", told)
     assert "link_2 = 0.7 " in cells("12")["elimination-view"] and far == pytest.approx(1 + 0.7)
     assert [low, high] == pytest.approx([-0.3, 0.3]) and high == pytest.approx(1 - 0.7)
     assert "It jumps where $|y_3|$ is between $|l_1 - l_2|$ and $l_1 + l_2$." in told

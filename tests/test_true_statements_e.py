@@ -1039,7 +1039,7 @@ def test_long_turns_and_lost_steps_are_as_stated():
     lost = {motor.run(ramp(48, f, f, 0), ones).lost for f in range(60, 281, 10)}
     assert 0 in lost and not any(each % 4 for each in lost)
     _, options, right = asked("motor_synchronisation.p10")
-    assert re.search(r"the numbers of lost steps were 0, \d+", options[right].reason)
+    assert re.search(r"the numbers of lost steps are 0, \d+", options[right].reason)
     assert "A path with corners can be shorter than a wide arc" in written("motor_synchronisation")
 
 
@@ -1057,7 +1057,7 @@ def test_between_two_jumps_the_arm_misses_the_tip():
     made = {"np": np}
     for name in ("casts-motion", "casts-player"):
         exec(cells("12")[name], made)
-    assert "The time in s is also $x_3$ in m." in flat("12", "casts")
+    assert "The time in seconds is also $x_3$ in metres." in flat("12", "casts")
     assert "animate([big, big], reach_x," in cells("12")["casts-player"]
     for y in (1.1, 1.6, 2.1):
         x = np.linspace(1.0, 3.5, 2001)

@@ -123,8 +123,8 @@ def test_test_in_the_last_hint_for_slerp_detects_every_mistake():
 def test_skew_axes_with_known_directions_determine_the_dh_parameters():
     reason = one_line(option("frames_and_quaternions.p4", "none").reason)
     assert (
-        "That is right for skew axes, which have only one common perpendicular, once you have "
-        "chosen its direction and those of the axes." in reason
+        "Once you have chosen the directions of the axes and of their common perpendicular, that "
+        "is right for skew axes, which have only one." in reason
     )
     assert "it is 0°, or 180° if they point in opposite directions" in one_line(
         option("frames_and_quaternions.p4", "alpha").reason
