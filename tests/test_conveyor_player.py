@@ -88,13 +88,25 @@ def test_player_shows_a_belt_of_ones_own(monkeypatch):
     for k, spread in enumerate(SPREADS):
         stream = spaced(200, gap, spread, seed=82)
         trips = serve(stream, 0.21, ALONG, ways_from(own), arms=2, pitch=1.0)
-        for i, (each, foot) in enumerate(zip(trips, named["bases"], strict=True)):
-            tool = spbu_arm(*LINKS).fk(motions[i][k]).translation
+        # the last arm is the first that `animate` gets
+        for i, (each, foot) in enumerate(zip(trips, named["bases"][::-1], strict=True)):
+            tool = spbu_arm(*LINKS).fk(motions[1 - i][k]).translation
             assert np.linalg.norm(tool - own, axis=-1).min() < 1e-6
             box = walls.reshape(2, -1, 3)[i]
             assert box[:, :2].mean(axis=0) == pytest.approx(foot + own[:2])
             wanted = [((clock[0] < each.backs) & (each.backs <= now)).sum() for now in clock]
-            assert brought[i][k].tolist() == wanted and wanted[-1]
+            assert brought[1 - i][k].tolist() == wanted and wanted[-1]
+
+
+def test_arm_in_the_title_has_the_first_curve(drawn):
+    """The first curve has the strongest line."""
+    _, named = drawn
+    assert named["names"] == ["arm 4", "arm 3", "arm 2", "arm 1"] and "arm 4" in named["title"]
+    counts = {mark.name: mark.reading for mark in named["things"] if mark.reading}
+    (brought,) = named["quantities"].values()
+    for name, foot, each in zip(named["names"], named["bases"], brought, strict=True):
+        assert foot == pytest.approx([0, int(name[-1]) - 1])
+        assert counts[name].rows[..., 0].tolist() == each.tolist()
 
 
 def test_title_asks_for_what_the_view_counts(monkeypatch):
@@ -107,7 +119,7 @@ def test_title_asks_for_what_the_view_counts(monkeypatch):
 def test_labels_stand_where_nothing_moves(drawn):
     """Each count is above its own arm, and each name of a window in front of its own window."""
     (_, _, motions), named = drawn
-    feet, arm = named["bases"], spbu_arm(*LINKS)
+    feet, arm = named["bases"][::-1], spbu_arm(*LINKS)
     marks = {mark.name: mark.at.rows[0, 0] for mark in named["things"]}
     assert list(marks) == [f"{what} {k + 1}" for what in ("arm", "window") for k in range(4)]
     top = max(arm.frames(q).translation[..., 2].max() for q in motions)

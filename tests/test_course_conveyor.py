@@ -58,7 +58,10 @@ def line(own, place, arms, least=None):
     bound = math.ceil(2 * ways(place).min() * own["v"] / own["gap"])
     numbers = own["v"], own["gap"], own["spread"]
     lost = sum(missed(*numbers, seed, place, bound) for seed in own["seeds"])
-    late = sum(missed(*numbers, seed, place, arms, first_come=True) for seed in own["seeds"])
+    late = [
+        sum(missed(*numbers, seed, (place[0], y), arms, first_come=True) for seed in own["seeds"])
+        for y in (-0.45, 0.45)
+    ]
     least = bound if least is None else least
     counts = {"least": least, "missed": lost, "arms": arms, "first_come": late}
     return {"bin": list(place)} | counts
@@ -85,6 +88,8 @@ def test_mistakes_in_lines_are_named():
     own = variant("conveyor", "Ada")
     most, right = own["most"], line(own, CORNER, own["most"])
     assert check("conveyor.1", right, who="Ada").holds
+    near, far = right["first_come"]
+    assert near > far
     load = 2 * ways(CORNER).min() * own["v"] / own["gap"]
     numbers = own["v"], own["gap"], own["spread"]
     first = missed(*numbers, own["seeds"][0], CORNER, right["least"])
@@ -95,8 +100,9 @@ def test_mistakes_in_lines_are_named():
         "one stream of three": right | {"missed": first},
         "taken for missed": right | {"missed": 600 - right["missed"]},
         "another number of missed objects": right | {"missed": right["missed"] + 1},
-        "another number under first come": right | {"first_come": right["first_come"] + 1},
-        "first come, taken for missed": right | {"first_come": 600 - right["first_come"]},
+        "another number under first come": right | {"first_come": [near + 1, far]},
+        "first come, taken for missed": right | {"first_come": [600 - near, far]},
+        "the two ends swapped": right | {"first_come": [far, near]},
         "more arms than allowed": line(own, CORNER, most + 1),
         "too few arms": line(own, BIN, 1),  # more than one arm would be busy all the time
         "no number of arms for a line": right | {"arms": 0},
@@ -107,7 +113,10 @@ def test_mistakes_in_lines_are_named():
     for name, answer in wrong.items():
         verdict = check("conveyor.1", answer, who="Ada")
         assert verdict.mistake == name and verdict.points < 1, (name, verdict)
-    for changed in ({"bin": [0.35]}, {"bin": "corner"}, {"least": "2"}):
+    for changed in (
+        {"bin": [0.35]}, {"bin": "corner"}, {"least": "2"}, {"first_come": near},
+        {"first_come": [near, 0.5]}, {"first_come": [near, -1]},
+    ):  # fmt: skip
         verdict = check("conveyor.1", right | changed, who="Ada")
         assert verdict.mistake == "another kind or shape"
     assert not check("conveyor.1", right | {"arms": ...}, who="Ada").answered
@@ -138,10 +147,12 @@ def test_a_count_that_is_off_by_one_is_refused(who):
     own = variant("conveyor", who)
     right = line(own, CORNER, own["most"])
     assert check("conveyor.1", right, who=who).holds
-    for key in ("missed", "first_come"):
-        for more in (-1, 1, 9):
-            wrong = right | {key: max(0, right[key] + more)}
-            assert not check("conveyor.1", wrong, who=who).holds, (key, more)
+    near, far = right["first_come"]
+    for more in (-1, 1, 9):
+        changes = [{"missed": right["missed"] + more}, {"first_come": [near + more, far]}]
+        changes.append({"first_come": [near, far + abs(more)]})
+        for change in changes:
+            assert not check("conveyor.1", right | change, who=who).holds, change
 
 
 def test_mistakes_under_first_come_are_named():
@@ -157,8 +168,50 @@ def test_mistakes_under_first_come_are_named():
         "first come, one stream of three": counts[1][0],
     }
     assert len({*wrong.values(), sum(counts[1])}) == 4
+    far = right["first_come"][1]
     for name, number in wrong.items():
-        assert check("conveyor.1", right | {"first_come": number}, who=who).mistake == name
+        answer = right | {"first_come": [number, far]}
+        verdict = check("conveyor.1", answer, who=who)
+        assert verdict.mistake == name and verdict.says[0].startswith("For y = −0.45 m: "), name
+    # a bin that is not at an end has a count of its own
+    own_bin = (0.35, -0.3)
+    answer = line(own, own_bin, right["arms"])
+    count = sum(
+        missed(*numbers, seed, own_bin, right["arms"], first_come=True) for seed in own["seeds"]
+    )
+    assert count not in answer["first_come"]
+    for k in (0, 1):
+        told = [count if i == k else n for i, n in enumerate(answer["first_come"])]
+        verdict = check("conveyor.1", answer | {"first_come": told}, who=who)
+        assert verdict.mistake == "your own bin instead of one at the end"
+
+
+@pytest.mark.parametrize("who", ["Ada L.", "Anna Petrova", "student 1"])
+def test_every_correct_answer_shows_that_the_place_of_the_bin_decides(who):
+    """Also with a bin for which the bound is enough and first come misses none."""
+    own = variant("conveyor", who)
+    for place in (CORNER, (0.35, 0.0), (0.35, 0.45)):
+        answer = line(own, place, own["most"])
+        verdict = check("conveyor.1", answer, who=who)
+        near, far = answer["first_come"]
+        assert verdict.holds and near > 10 * (far + 1), (place, verdict)
+        enough = "not enough" if answer["missed"] else "enough"
+        assert f"the bound of {answer['least']} is {enough} for these" in verdict.says[1]
+        assert (
+            f"{near} objects with the bin where the objects come in, and {far} with"
+            in (verdict.says[2])
+        )
+
+
+def test_too_many_arms_at_a_good_bin_are_named():
+    """The place of the bin is not the mistake."""
+    own = variant("conveyor", "Ada L.")
+    verdict = check("conveyor.1", line(own, (0.35, 0.45), own["most"] + 2), who="Ada L.")
+    assert verdict.mistake == "more arms than allowed"
+    assert "fewer arms already miss none" in verdict.says[0]
+    assert "other places" not in repr(verdict)
+    bad = line(own, (0.15, -0.45), own["most"] + 2)
+    assert "Try other places for the bin" in check("conveyor.1", bad, who="Ada L.").says[0]
 
 
 def test_numbers_used_in_the_predictions_are_correct():

@@ -435,7 +435,7 @@ def test_belt_table_shows_one_stream_and_other_streams_need_one_more_arm():
     assert "speeds; at spread 1, it is one arm too few at five of them." in words
     assert (
         "All this is for one order of the gaps, `seed=8`; at spread 1, most other orders need "
-        'another arm ("More").' in words
+        'another arm at 200 and 300 mm/s ("More").' in words
     )
     orders, fourth, more = numbers(
         r"The folded cell tries (\d+) orders: at spread 0.5, not at all; at spread 1, (\d+) need a "
@@ -452,6 +452,9 @@ def test_belt_table_shows_one_stream_and_other_streams_need_one_more_arm():
     assert few[0] == [0] * 6 and sorted(few[1]) == [0] * 3 + [1] * 3
     assert sorted(few[2]) == [0] + [1] * 5
     assert (arms_needed(0.2, 1, 8), arms_needed(0.3, 1, 8)) == (3, 4)
+    for v in (0.05, 0.1, 0.15, 0.25):  # at the other speeds of the table
+        normal = arms_needed(v, 1, 8)
+        assert sum(arms_needed(v, 1, seed) > normal for seed in range(9, 28)) < (orders - 1) / 2
     for v, normal, extra in ((0.2, 3, fourth), (0.3, 4, more)):
         counts = [arms_needed(v, 1, seed) for seed in range(8, 28)]
         assert len(counts) == orders and counts[0] == normal
@@ -529,7 +532,7 @@ def test_belt_player_shows_the_streams_of_the_table(monkeypatch):
             # the second and third arms are each 1 m farther along the belt than the arm before them
             backs, left = one_arm(np.array(left) + (arm > 0) * 5.0, 0.2)
             wanted = [sum(clock[0] < back <= now for back in backs) for now in clock]
-            assert brought[arm][k].tolist() == wanted
+            assert brought[named["names"].index(f"arm {arm + 1}")][k].tolist() == wanted
             assert counts[f"arm {arm + 1}"].rows[k, :, 0].tolist() == wanted
         assert not left  # three arms are enough, as the table says
         busy.append(wanted[-1] > 0)
@@ -582,8 +585,8 @@ def in_order(arrivals, v):
 def test_first_come_is_never_worse_for_one_arm_that_must_miss_none():
     words = flat("14", "belt-curve-look")
     streams, more = numbers(
-        r'"first come" was never worse in these (\d+) streams \(three random orders for each spread'
-        r"\), and it was up to (\d+) mm/s faster",
+        r'"first come" \(dashed\) was never worse in these (\d+) streams \(three random orders for '
+        r"each spread\), and it was up to (\d+) mm/s faster",
         words,
     )
     made = quietly("14", "belt-spread")
@@ -648,16 +651,17 @@ def test_first_come_needs_more_arms_as_stated():
 
 def test_only_first_come_gives_the_fourth_arm_work(monkeypatch):
     assert (
-        'with "back soonest" it never gets an object; with "first come" it works at every spread, '
-        "even at 0." in flat("14", "belt-several")
+        '"Back soonest" leaves it nothing; with "first come", it works at every spread, even at 0.'
+        in flat("14", "belt-rules-look")
     )
     call = "conveyor_player(0.2, [0, 0.5, 1], arms=4, rules=True)"
     (_, _, motions), named = given_to_animate(monkeypatch, "belt-rules-player", call)
     assert named["title"] == "200 mm/s: how many objects does arm 4 bring?"
-    moves = np.ptp(motions[3], axis=2).max(axis=-1)  # of arm 4, by rule and spread
+    assert named["names"][0] == "arm 4"
+    moves = np.ptp(motions[0], axis=2).max(axis=-1)  # of arm 4, by rule and spread
     assert not moves[0].any() and (moves[1] > 0.5).all()
     (brought,) = named["quantities"].values()
-    assert not brought[3][0].any()
+    assert not brought[0][0].any()
     for k, spread in enumerate([0, 0.5, 1]):
         left = belt_stream(spread, 8) / 0.2
         for _ in range(3):
@@ -665,23 +669,36 @@ def test_only_first_come_gives_the_fourth_arm_work(monkeypatch):
             if not len(left):
                 break
         assert not len(left)  # three arms take all 200
-        assert brought[3][1, k, -1] > 0, "arm 4 brings nothing in these six seconds"
+        assert brought[0][1, k, -1] > 0, "arm 4 brings nothing in these six seconds"
 
 
-def test_rules_agree_if_the_arm_is_always_back_in_time():
-    words = flat("14", "belt-row")
-    v, narrowest, needs = numbers(
-        r"At (\d+) mm/s and this spread, the rules agree: even the narrowest gap lasts (\S+) s, "
-        r"and the arm needs (\S+) s\.",
-        words,
+def test_rules_are_equally_good_with_the_bin_at_the_other_end():
+    """A late arm then meets its object nearer to the bin."""
+    (both,) = numbers(
+        r"With the bin at the other end, a late arm's trip gets shorter, and both rules take (\d+) "
+        r"objects\.",
+        flat("14", "belt-row"),
     )
-    stream = belt_stream(0.5, 8) / (v / 1000)
-    assert narrowest == pytest.approx(np.diff(stream).min(), abs=0.005)
-    assert needs == pytest.approx(2 * WAYS.min(), abs=0.005) and needs < narrowest
-    soonest, first = (rule(stream, v / 1000) for rule in (one_arm, in_order))
-    assert soonest[0] == pytest.approx(first[0]) and not len(soonest[1]) and not first[1]
-    # it meets every object at the place to which it needs the least time
-    assert soonest[0] == pytest.approx(stream + WAYS[0]) and WAYS.argmin() == 0
+    # the window is mirrored instead of the bin: the places are then passed from far to near
+    ways, delays = WAYS[::-1], np.linspace(0, 0.8, 161) / 0.15
+    taken = []
+    for in_order_too in (False, True):
+        left, free, count = list(belt_stream(0.5, 8) / 0.15), 0.0, 0
+        while left:
+            at = np.array(left)[:, None] + delays
+            in_time = at >= free + ways - 1e-9
+            some = in_time.any(axis=-1)
+            if not some.any():
+                break
+            place = in_time.argmax(axis=-1)
+            back = np.where(some, at[range(len(left)), place] + ways[place], np.inf)
+            pick = int(some.argmax() if in_order_too else back.argmin())
+            free, count = back[pick], count + 1
+            del left[pick]
+        taken.append(count)
+    assert taken == [both, both]
+    line = shown("14", "belt-work").splitlines()[-1]
+    assert line == f"bin at the other end, back soonest and first come: {both:g} {both:g}"
 
 
 def test_changing_only_alpha_to_plus_90_mirrors_the_arm_in_the_floor():

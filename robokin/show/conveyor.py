@@ -55,7 +55,8 @@ def conveyor_player(
     bin_place  the place (3,) of the bin, in m: see `ways_from`
     gap, seed  mean gap between two objects, 0.1 to 0.5 m, and the order of the gaps: see `spaced`
 
-    The numbers above the arms and the curves count the objects brought to the bins since the start
+    The title asks about the last arm, so its curve is the first one, with the strongest line. The
+    numbers above the arms and the curves count the objects brought to the bins since the start
     of the six seconds. A strip along the belt marks each window. Raises ValueError if a number is
     outside these ranges.
     """
@@ -80,18 +81,19 @@ def conveyor_player(
         done = [(clock[:, None] >= each.backs).sum(axis=-1) for each in trips]
         brought.append([each - each[0] for each in done])
     numbers = [one.reshape(*lead, SAMPLES) for one in np.stack(brought, axis=1)]
-    return animate(
+    moves = [one.reshape(*lead, SAMPLES, -1) for one in np.stack(motions, axis=1)]
+    return animate(  # the last arm first: the first arm has the strongest curve
         [machine] * count,
         clock,
-        [one.reshape(*lead, SAMPLES, -1) for one in np.stack(motions, axis=1)],
-        names=[f"arm {k + 1}" for k in range(count)],
+        moves[::-1],
+        names=[f"arm {k}" for k in range(count, 0, -1)],
         slider=("spread", values),
         switch=("rule", words) if len(words) > 1 else None,
-        bases=feet if count > 1 else None,
+        bases=feet[::-1] if count > 1 else None,
         circles=[(lane.reshape(*lead, SAMPLES, 3), RADIUS) for lane in _lanes(places)],
         faces=_belt(feet) + _boxes(feet, place),
         things=_labels(feet, numbers),
-        quantities={"objects brought": numbers if count > 1 else numbers[0]},
+        quantities={"objects brought": numbers[::-1] if count > 1 else numbers[0]},
         title=_title(speed, count),
     )
 

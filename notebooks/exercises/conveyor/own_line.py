@@ -23,8 +23,9 @@ HEIGHT = 250 * mm
 CORNER = (350 * mm, -450 * mm)  # the least time of one object
 MOST_ARMS = 12
 Fault = tuple[str, str]
-# the bin, the bound, what so few arms miss, the arms, and what these miss under "first come"
-Line = tuple[tuple[float, float], int, int, int, int]
+# the bin, the bound, what so few arms miss, the arms, and what these miss under "first come" with
+# the bin at each end of the window
+Line = tuple[tuple[float, float], int, int, int, tuple[int, int]]
 
 
 @cache
@@ -74,8 +75,8 @@ def given(who: Any) -> Numbers:
 
 def form(answer: Any, numbers: Any) -> Line:
     if not isinstance(answer, Mapping) or not set(KEYS) <= set(answer):
-        names = '"least", "missed", "arms" and "first_come"'
-        wanted = f'wanted {{"bin": [x, y] in m}} and whole numbers for {names}'
+        names = '"least", "missed" and "arms", and two for "first_come"'
+        wanted = f'wanted {{"bin": [x, y] in m}}, whole numbers for {names}'
         raise ValueError(f"{wanted}, got {in_words(answer)}")
     try:
         place = floats(answer["bin"])
@@ -84,7 +85,7 @@ def form(answer: Any, numbers: Any) -> Line:
     if place.shape != (2,) or not np.isfinite(place).all():
         raise ValueError(f"bin: wanted x and y in m, got {in_words(answer['bin'])}")
     counts = []
-    for key in KEYS[1:]:
+    for key in KEYS[1:-1]:
         try:
             value = one_number(answer[key])
         except (TypeError, ValueError):
@@ -92,8 +93,15 @@ def form(answer: Any, numbers: Any) -> Line:
         if not 0 <= value <= 1000 or value % 1:
             raise ValueError(f"{key}: wanted a whole number, got {in_words(answer[key])}")
         counts.append(int(value))
-    least, lost, arms, late = counts
-    return (float(place[0]), float(place[1])), least, lost, arms, late
+    least, lost, arms = counts
+    try:
+        late = floats(answer["first_come"])
+    except (TypeError, ValueError):
+        late = np.empty(0)
+    if late.shape != (2,) or not ((late >= 0) & (late <= 1000) & (late % 1 == 0)).all():
+        wanted = "first_come: wanted two whole numbers, for y = −0.45 m and for y = 0.45 m"
+        raise ValueError(f"{wanted}, got {in_words(answer['first_come'])}")
+    return (float(place[0]), float(place[1])), least, lost, arms, (int(late[0]), int(late[1]))
 
 
 def faults(line: Line, numbers: Any) -> list[Fault]:
@@ -124,23 +132,69 @@ def faults(line: Line, numbers: Any) -> list[Fault]:
             name = "the bound is not enough" if arms == bound["the bound"] else "too few arms"
             many = "one arm" if arms == 1 else f"{arms} arms"
             found.append((name, f"With {many} and this bin, some objects of a stream are missed."))
-        late = missed(numbers, place, arms, first_come=True)
-        if told_first != sum(late):
-            other = missed(numbers, place, served, first_come=True)
-            slips = [
-                ("back soonest instead of first come", sum(missed(numbers, place, arms))),
-                ("first come by another number of arms", sum(other)),
-                ("first come, one stream of three", late[0]),
-                ("first come, taken for missed", 3 * OBJECTS - sum(late)),
-            ]
-            found.append(slip(told_first, slips, "another number under first come"))
+        if fault := first_come_slips(numbers, place, served, arms, told_first):
+            found.append(fault)
     if arms > most:
         says = (
             f"You may use {most} arms at most. Try other places for the bin, also nearer to the "
             "belt: a small c is not enough if the way to the rest of the window is long."
         )
+        if none_missed(numbers, place, most):
+            says = "With this bin, fewer arms already miss none: try count_missed with fewer arms."
         found.append(("more arms than allowed", says))
     return found
+
+
+def first_come_slips(
+    numbers: Mapping[str, Any],
+    place: tuple[float, float],
+    served: int,
+    arms: int,
+    told: tuple[int, int],
+) -> Fault | None:
+    """The mistake in what so many arms miss under "first come" with the bin at each end."""
+    stands = ends(place)
+    late = [missed(numbers, end, arms, first_come=True) for end in stands]
+    right = sum(late[0]), sum(late[1])
+    if told == right:
+        return None
+    if told == right[::-1]:
+        return "the two ends swapped", WHY["the two ends swapped"]
+    k = 0 if told[0] != right[0] else 1  # the first wrong number
+    slips = [
+        ("back soonest instead of first come", sum(missed(numbers, stands[k], arms))),
+        (
+            "first come by another number of arms",
+            sum(missed(numbers, stands[k], served, first_come=True)),
+        ),
+        ("first come, one stream of three", late[k][0]),
+        ("first come, taken for missed", 3 * OBJECTS - right[k]),
+        (
+            "your own bin instead of one at the end",
+            sum(missed(numbers, place, arms, first_come=True)),
+        ),
+    ]
+    name, says = slip(told[k], slips, "another number under first come")
+    return name, f"For y = {('−0.45', '0.45')[k]} m: {says}"
+
+
+def ends(place: tuple[float, float]) -> list[tuple[float, float]]:
+    """The places of the bin at the ends of the window: where the objects come in, and the other."""
+    return [(place[0], float(y)) for y in (LOW[1], HIGH[1])]
+
+
+def holds(line: Line, numbers: Any) -> list[str]:
+    """Sentences for an answer that passes: what its numbers show."""
+    _, least, lost, arms, (near, far) = line
+    enough = "not enough" if lost else "enough"
+    says = [f"With your bin, the bound of {least} is {enough} for these three streams."]
+    if near > far:
+        says.append(
+            f"Under first come, {arms} arms miss {near} objects with the bin where the objects "
+            f"come in, and {far} with the bin at the other end. At the first end, a late arm makes "
+            "a longer trip and is later still; at the other end, its trip is shorter."
+        )
+    return says
 
 
 def slip(told: int, slips: Sequence[tuple[str, int]], otherwise: str) -> Fault:
@@ -172,8 +226,13 @@ WHY = {
     "first come. Add the other two.",
     "first come, taken for missed": "So many of the 600 objects are taken under first come. Give "
     "the number that is missed.",
+    "the two ends swapped": "You swapped the ends in first_come: the first number is for "
+    "y = −0.45 m, where the objects come in.",
+    "your own bin instead of one at the end": "So many are missed with your own bin. Call "
+    "count_missed with the bin at this end, and your x.",
     "another number under first come": "first_come: let `arms` arms, the same number as before, "
-    "serve your three streams under first come, and add up what they miss.",
+    "serve your three streams under first come with the bin at this end, and add up what they "
+    "miss.",
     "another bound": "The bound is c v / g, rounded up: c is 2 ways_from([x, y, 0.25]).min() for "
     "your bin, and g is the mean gap.",
 }
