@@ -96,7 +96,7 @@ TWINS = {
 }
 PLAIN = {*range(-1, 101), 0.002, 0.5, 200, 400}  # values that may be equal by chance
 # tolerances whose values are equal to a tolerance of Python by chance
-OTHER = {("KEPT", 1e-6), ("SAME", 1e-6), ("TINY", 1e-9)}
+OTHER = {("KEPT", 1e-6), ("SAME", 1e-6), ("TINY", 1e-9), ("SHORT", 0.01)}
 
 
 def numbers_of(path):

@@ -14,8 +14,7 @@ import {distance2} from "./rows.js";
 /** @import {Camera} from "./camera.js" */
 /** @import {CrossingExplorer, Found, State} from "./crossing_explorer.js" */
 
-const HOLE = 1e-9; // times the reach: a smaller hole is a rounding error
-const SHORT = 0.01; // times the reach: a shorter jump has no label
+const SHORT = 0.01; // times the reach: a shorter jump has no label, and a smaller hole no rim
 const RAIL = 6; // px: the distance of a drawn track from the circle
 
 /**
@@ -84,7 +83,7 @@ function jumpOf(data, {crossing: [from, to]}) {
 function rimsOf({arm}) {
   const {reach, l1, l2} = arm.geometry,
     inner = Math.abs(l1 - l2);
-  return inner > HOLE * reach ? [reach, inner] : [reach];
+  return inner > SHORT * reach ? [reach, inner] : [reach];
 }
 
 /**
