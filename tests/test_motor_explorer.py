@@ -184,7 +184,9 @@ def test_view_opens_with_the_frequency_that_is_asked_for(opened):
         shown = opened(made)
         told, ours, _ = lost(shown)
         assert told == ours and (told == 0) == fine
-        assert f"48 pulses, {frequency} per second from the first" in shown.look().says
+        assert f" ms, {frequency} per second from the first" in shown.look().says.replace(
+            "\u00a0", " "
+        )
     for frequency in (9, 501, np.nan, "fast"):
         with pytest.raises(ValueError, match="^frequency: wanted"):
             motor_explorer(motor, frequency=frequency)
