@@ -44,6 +44,12 @@ def right(x, y, before):
     return before if x == y == 0 else before + short(math.atan2(y, x) - before)
 
 
+def in_degrees(x, y, before):
+    """Subtract multiples of 360, as in the lab's program in degrees, from an angle in radians."""
+    d = math.atan2(y, x) - before
+    return before if x == y == 0 else before + d - 360 * round(d / 360)
+
+
 def by_loops(x, y, before):
     alpha = before if x == y == 0 else math.atan2(y, x)
     while alpha - before > math.pi:
@@ -106,31 +112,64 @@ def test_mistakes_in_postures_are_named(answer, name):
     assert not verdict.holds and name in verdict.mistake
 
 
+def test_360_degrees_in_a_program_in_radians_is_mentioned():
+    verdict = check("motor_synchronisation.1", posture(in_degrees))
+    assert not verdict.holds and "In radians, a whole turn is 2 pi." in " ".join(verdict.says)
+
+
+STOPS = ("start", "goal", "home", "start")
+
+
 def move(who):
+    """A student's numbers, the four postures of the cycle, and the smallest gears."""
     own = variant("motor_synchronisation", who)
-    ends = np.reshape([own[f"{end}_{x}"] for end in ("start", "goal") for x in "xyz"], (2, 3))
+    ends = np.reshape([own[f"{end}_{x}"] for end in STOPS for x in "xyz"], (4, 3))
     reach = np.array([A + B, A + B, B])  # from each joint to the end of the stretched arm
     least = np.ceil(reach * 0.9 * deg / own["miss"] - 1e-9)
     return own, station_postures(LOADER, ends), least
 
 
+def sent(q, gears):
+    return np.diff(counts(q, np.array(gears) / 1.8), axis=0)
+
+
 def pulses(q, gears):
-    return abs(np.diff(counts(q, np.array(gears) / 1.8), axis=0)[0])
+    return abs(sent(q, gears)[0])
+
+
+def drive(q, gears, omega):
+    return {"gears": gears, "pulses": sent(q, gears), "frequencies": omega}
 
 
 @pytest.mark.parametrize("who", [f"student {k}" for k in range(30)])
 def test_every_student_has_a_feasible_move(who):
     own, q, least = move(who)
     for gears in (least, least + [0, 1, 2]):
-        drive = {"gears": gears, "frequencies": list(frequencies(pulses(q, gears), own["most"]))}
-        assert check("motor_synchronisation.2", drive, who=who).holds
+        answer = drive(q, gears, list(frequencies(pulses(q, gears), own["most"])))
+        assert check("motor_synchronisation.2", answer, who=who).holds
     alpha = (q[:, 0] + np.pi) % TURN - np.pi
     assert abs(np.diff(alpha)[0]) > np.pi, "the move does not cross 180°"
+    assert q[-1] == pytest.approx(q[0], abs=1e-12), "the cycle winds joint 1 up"
+    assert drifts(q, least).any(), "the cycle does not drift if every move is rounded"
     shortest = pulses(q, least).max() / own["most"]
     assert shortest < own["seconds"] < 1.2 * shortest + 0.11, "the limit does not bind"
     fine = np.ceil(1.5 * least)
-    drive = {"gears": fine, "frequencies": frequencies(pulses(q, fine), own["most"])}
-    assert check("motor_synchronisation.2", drive, who=who).mistake == "geared too high"
+    answer = drive(q, fine, frequencies(pulses(q, fine), own["most"]))
+    assert check("motor_synchronisation.2", answer, who=who).mistake == "geared too high"
+    answer = drive(q, least, frequencies(pulses(q, least), own["most"])) | {
+        "pulses": np.rint(np.diff(q / deg * least / 1.8, axis=0))
+    }
+    verdict = check("motor_synchronisation.2", answer, who=who)
+    assert not verdict.holds and verdict.mistake == "every move rounded"
+    [k, off] = re.search(
+        r"After one cycle, motor (\d) is (\d+) pulses? from", " ".join(verdict.says)
+    ).groups()
+    assert abs(drifts(q, least)[int(k) - 1]) == float(off) == abs(drifts(q, least)).max()
+
+
+def drifts(q, gears):
+    """The pulses left over after one cycle if every move is rounded."""
+    return np.rint(np.diff(q / deg * gears / 1.8, axis=0)).sum(axis=0)
 
 
 def test_mistakes_in_drives_are_named():
@@ -147,9 +186,46 @@ def test_mistakes_in_drives_are_named():
         "too coarse": (gears - 1, frequencies(n, most)),
         "the gears left out": (gears + [0, 5, 8], turns / turns.max() * most),
     }
-    for name, (i, omega) in wrong.items():
-        drive = {"gears": i, "frequencies": omega}
-        assert check("motor_synchronisation.2", drive, who="Ada").mistake == name
+    for name, (r, omega) in wrong.items():
+        answer = drive(q, r, omega)
+        assert check("motor_synchronisation.2", answer, who="Ada").mistake == name
+
+
+@pytest.mark.parametrize("who", ["Ada", "Bo", "Cy", "Di"])
+def test_mistakes_in_the_pulses_of_a_cycle_are_named(who):
+    own, q, gears = move(who)
+    right = sent(q, gears)
+    answer = drive(q, gears, frequencies(abs(right[0]), own["most"]))
+    due = q / deg * gears / 1.8
+    long = np.column_stack([(q[:, 0] + np.pi) % TURN - np.pi, q[:, 1:]])
+    wrong = {
+        "pulses that are not whole": [np.diff(due, axis=0), right + 0.5],
+        "every move rounded": [np.rint(np.diff(due, axis=0))],
+        "the signs of the pulses": [abs(right), -right],
+        "the long way round": [sent(long, gears)],
+        "positions truncated": [np.diff(cut(due), axis=0) for cut in (np.trunc, np.floor)],
+        "positions instead of pulses": [np.rint(due[:3]), np.rint(due[1:])],
+        "the gears left out": [np.diff(np.rint(q / deg / 1.8), axis=0)],
+        "degrees for pulses": [np.rint(np.diff(q / deg, axis=0))],
+        "rows and columns swapped": [right.T],
+        "wrong pulses": [right + [[0, 0, 0], [0, 7, 0], [0, -7, 0]], np.zeros((3, 3))],
+    }
+    for name, programs in wrong.items():
+        for each in programs:
+            verdict = check("motor_synchronisation.2", answer | {"pulses": each}, who=who)
+            assert not verdict.holds and verdict.mistake == name, (name, verdict)
+            if name != "wrong pulses":
+                continue
+            assert not each.any() or "motor 2 end 7 pulses from the position nearest to home" in (
+                " ".join(verdict.says)
+            )
+    for each in (right.tolist(), right.astype(float), right.astype(int)):
+        assert check("motor_synchronisation.2", answer | {"pulses": each}, who=who).holds
+    for each in (right[:2], right[0], "none"):
+        verdict = check("motor_synchronisation.2", answer | {"pulses": each}, who=who)
+        assert verdict.mistake == "another kind or shape", verdict
+    verdict = check("motor_synchronisation.2", answer | {"pulses": ...}, who=who)
+    assert not verdict.holds and not verdict.answered
 
 
 def test_shoulder_taken_along_x_and_none_for_no_posture_are_named():
@@ -177,10 +253,10 @@ def test_shoulder_taken_along_x_and_none_for_no_posture_are_named():
 def test_negative_frequencies_do_not_hold(signs):
     own, q, gears = move("Ada")
     omega = frequencies(pulses(q, gears), own["most"])
-    drive = {"gears": gears, "frequencies": omega * signs}
-    verdict = check("motor_synchronisation.2", drive, who="Ada")
+    answer = drive(q, gears, omega * signs)
+    verdict = check("motor_synchronisation.2", answer, who="Ada")
     assert not verdict.holds and any("positive" in line for line in verdict.says)
-    assert check("motor_synchronisation.2", {**drive, "frequencies": omega}, who="Ada").holds
+    assert check("motor_synchronisation.2", {**answer, "frequencies": omega}, who="Ada").holds
 
 
 @pytest.mark.parametrize(
@@ -295,25 +371,56 @@ def test_test_must_check_every_row(rows, name):
 def test_messages_about_drives_show_different_numbers_and_not_the_answer():
     own, q, gears = move("Ada")
     n = pulses(q, gears)
-    high = {"gears": 9 * gears, "frequencies": frequencies(n, own["most"])}
+    high = drive(q, 9 * gears, frequencies(n, own["most"]))
     told = " ".join(check("motor_synchronisation.2", high, who="Ada").says)
     for gear in gears:
         assert f" {gear:.0f} " not in told
-    slow = {"gears": gears, "frequencies": frequencies(n, 0.5 * own["most"])}
+    slow = drive(q, gears, frequencies(n, 0.5 * own["most"]))
     told = " ".join(check("motor_synchronisation.2", slow, who="Ada").says)
     assert f"{n.max() / own['most']:.2f}" not in told
-    fast = {"gears": gears, "frequencies": frequencies(n, 1.0001 * own["most"])}
+    fast = drive(q, gears, frequencies(n, 1.0001 * own["most"]))
     told = " ".join(check("motor_synchronisation.2", fast, who="Ada").says)
     runs, allowed = re.search(r"runs at (.*) pulses/s; at most (.*) are allowed\.$", told).groups()
     assert runs != allowed
-    text = {"gears": ["50", "50", "50"], "frequencies": [1, 2, 3]}
+    text = drive(q, gears, [1, 2, 3]) | {"gears": ["50", "50", "50"]}
     assert check("motor_synchronisation.2", text, who="Ada").mistake == "another kind or shape"
 
 
-def test_right_answer_moves_the_gripper_in_the_lab_view_to_the_goal():
+def lab_sources():
     [path] = NOTEBOOKS.glob("11_*.ipynb")
     stored = json.loads(path.read_text(encoding="utf-8"))["cells"]
-    sources = {cell["id"]: "".join(cell["source"]) for cell in stored}
+    return {cell["id"]: "".join(cell["source"]) for cell in stored}
+
+
+def test_lab_view_of_a_cycle_says_whether_it_drifts():
+    sources, space = lab_sources(), {}
+    exec(sources["your-turn-stub-2"], space)
+    exec(sources["your-turn-cycle"], space)
+    assert space["my_title"].startswith("Write")
+    _, q, gears = move("your name")
+    rounded = np.rint(np.diff(q / deg * gears / 1.8, axis=0))
+    assert drifts(q, gears).any()
+    long = np.column_stack([(q[:, 0] + np.pi) % TURN - np.pi, q[:, 1:]])
+    for pulses_, told in (
+        (sent(q, gears), "nothing drifts"),
+        (rounded, "After 200 of your cycles"),
+        (sent(long, gears), "takes the long way"),
+        (np.zeros((3, 3)), "miss a point"),
+        ([1, 2, 3], "Write"),
+    ):
+        space["my_drive"] = {"gears": gears, "pulses": pulses_, "frequencies": [1, 1, 1]}
+        exec(sources["your-turn-cycle"], space)
+        assert told in space["my_title"], (told, space["my_title"])
+    space["my_drive"]["pulses"] = rounded
+    exec(sources["your-turn-cycle"], space)
+    off = float(re.search(r"is (\S+) mm from start", space["my_title"])[1])
+    later = np.rint(q[0] / deg * gears / 1.8) + 200 * drifts(q, gears)
+    ends = LOADER.fk(np.stack([later / (gears / 1.8) * deg, q[0]])).translation
+    assert off == pytest.approx(1000 * np.linalg.norm(ends[1] - ends[0]), abs=0.06)
+
+
+def test_right_answer_moves_the_gripper_in_the_lab_view_to_the_goal():
+    sources = lab_sources()
     space = {}
     exec(sources["your-turn-stub-1"], space)
     exec(sources["your-turn-player"], space)

@@ -89,7 +89,10 @@ def test_strings_instead_of_numbers_are_reported_as_the_wrong_kind(name):
         ),
         ("three_levers.3", {"first": "2", "second": 2}),
         ("obstacle_avoidance.2", ([["1", "2", "2"], ["1", "1", "1"]], [[1, 1], [2, 1]])),
-        ("motor_synchronisation.2", {"gears": ["9", "9", "9"], "frequencies": [1, 2, 3]}),
+        (
+            "motor_synchronisation.2",
+            {"gears": ["9", "9", "9"], "pulses": np.ones((3, 3)), "frequencies": [1, 2, 3]},
+        ),
     ],
 )
 def test_string_instead_of_a_number_in_a_design_is_reported_as_the_wrong_kind(name, answer):

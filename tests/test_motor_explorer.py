@@ -155,11 +155,41 @@ def test_a_motor_alone_has_no_others_in_its_menus(opened, motor):
     [only] = kind["motors"]
     assert (kind["rotor"], kind["motor"]) == (motor.rotor, motor.motor)
     assert only["windings"] == motor.windings and repr(alone) == repr(whole)
-    words = alone.data["meant"]
-    assert all(f" {WORDS[key]}" in words for key in ("step", "holding", "starting", "commutation"))
-    assert WORDS["startFrequency"] in words
-    assert len(whole.data["kinds"]) == 3 and WORDS["commutation"] not in whole.data["meant"]
-    assert lost(opened(alone))[:2] == lost(opened(whole))[:2]
+    assert len(whole.data["kinds"]) == 3
+    one, all_ = opened(alone), opened(whole)
+    assert lost(one)[:2] == lost(all_)[:2]
+    shown = {
+        name: (len(view.rk.locator("select:visible").all()), properties(view))
+        for name, view in (("alone", one), ("whole", all_))
+    }
+    names = [WORDS[key] for key in ("step", "startFrequency")]
+    assert shown["alone"] == (shown["whole"][0] - 2, names) and len(shown["whole"][1]) == 5
+    assert all(f" {name}" in alone.data["meant"] for name in names), "a property is not explained"
+    for view, offers in ((one, 0), (all_, 1)):
+        for name in ("load torque", "load inertia", "ramp from", "ramp time"):
+            assert view.rk.get_by_text(name, exact=True).count() == offers
+        assert view.rk.get_by_text("frequency", exact=True).count() == 1
+
+
+def properties(view):
+    """The names of the motor's properties beside the phase table."""
+    return view.rk.locator(".rk-facts tbody tr th").all_inner_texts()
+
+
+def test_view_opens_with_the_frequency_that_is_asked_for(opened):
+    motor = Stepper()
+    for frequency, fine in ((100, True), (200, False)):
+        made = motor_explorer(motor, frequency=frequency)
+        assert f"48 pulses at {frequency} per second: {'no' if fine else ''}" in repr(made)
+        shown = opened(made)
+        told, ours, _ = lost(shown)
+        assert told == ours and (told == 0) == fine
+        assert f" ms, {frequency} per second from the first" in shown.look().says.replace(
+            "\u00a0", " "
+        )
+    for frequency in (9, 501, np.nan, "fast"):
+        with pytest.raises(ValueError, match="^frequency: wanted"):
+            motor_explorer(motor, frequency=frequency)
 
 
 @pytest.mark.parametrize("motor", [Stepper(), MOTORS["table 2"]], ids=["table 1", "table 2"])
@@ -197,7 +227,7 @@ def test_rotor_responds_to_dragging_and_to_pulses(opened):
     assert angles == pytest.approx(ways, abs=2) and seen.pixels[0] != resting.pixels[0]
     # past half a turn the rotor jumps to the next position where a1 holds it: four steps ahead
     shown.page.wait_for_function(
-        "document.querySelector('.rk-state').textContent.includes('4 steps ahead')"
+        "document.querySelector('.rk-state').textContent.includes('Steps ahead: 4.')"
     )
     shown.rk.get_by_role("button", name="Begin again").click()
     shown.rk.get_by_role("button", name="+1 pulse").click()

@@ -228,17 +228,25 @@ def test_straight_line_takes_longer_if_the_motor_at_the_limit_changes():
 
 def test_last_move_of_the_program_turns_alpha_by_the_stated_angle():
     onwards, back = numbers(
-        r"increases by another (\S+)° instead of turning back by (\S+)°\.",
+        r"increases by (\S+)° instead of decreasing by (\S+)°\.",
         flat("11", "deeper-program-look"),
     )
     turn = 2 * np.degrees(np.arctan2(20, 500))
     assert [onwards, back] == pytest.approx([turn, 360 - turn], abs=0.05)
+    points = np.array([[420, -180, 420], [-500, 20, 200], [-500, -20, 200]])
+    assert re.search(
+        r"job = .*\[420, -180, 420\].*\[-500, 20, 200\], \[-500, -20, 200\]\]",
+        (flat("11", "deeper-program")),
+    )
+    before, last = np.diff(station_postures(LOADER, points * mm)[:, 0]) / deg
+    assert before < 0 < last == pytest.approx(onwards, abs=0.05), "alpha turns back"
 
 
 def test_rule_that_considers_only_the_size_of_a_turn_fails_in_the_stated_range():
     text = flat("11", "turn-look")
     low, high = numbers(
-        r"for \$-(\d+)° < d < -(\d+)°\$ the rule \*by size\* gives the right turn with the wrong",
+        r"for \$-(\d+)° < \\delta < -(\d+)°\$ the rule \*by size\* gives the right turn with the "
+        r"wrong sign",
         text,
     )
     for d in np.arange(-899.5, 0):

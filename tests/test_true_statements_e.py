@@ -40,7 +40,17 @@ from robokin import (
 )
 from robokin.course import book
 from robokin.jobs.obstacles import clearance, in_quadrilateral, plan, via_path
-from robokin.jobs.steppers import Stepper, phases, ramp, station_postures, straight
+from robokin.jobs.steppers import (
+    Stepper,
+    counts,
+    energised,
+    phases,
+    ramp,
+    station_postures,
+    straight,
+    synchronised,
+    unsynchronised,
+)
 from robokin.jobs.visit_collect import Task, TaskError, principal_postures
 
 LINE = book.lab("puma560_branches").module("predictions")
@@ -927,8 +937,8 @@ def test_motors_reverse_on_the_straight_line_where_the_lab_says():
 
 def test_straight_line_is_path_b_in_exactly_the_cases_that_lab_11_states():
     assert (
-        "If the distance from the base and the elevation of the first lever each only grow or only "
-        "shrink along the line" in flat("11", "able")
+        "None reverses if the distance from the base and γ each only grow or only shrink along the "
+        "line" in flat("11", "paths-look")
     )
     start, loader = np.array([600, -350, 50]) * mm, loader_arm(0.45, 0.30)
     rng, found = np.random.default_rng(11), []
@@ -950,6 +960,41 @@ def test_straight_line_is_path_b_in_exactly_the_cases_that_lab_11_states():
         pulse = 1 / 40 * deg  # a motor that goes back by less than this does not reverse
         assert turns != (back(np.linalg.norm(line, axis=1)) < 0.1 * mm and back(gamma) < 2 * pulse)
     assert 10 < sum(found) < 140
+
+
+def test_paths_a_and_d_take_the_same_time_and_the_straight_line_is_never_faster():
+    assert (
+        "Never, and no. On a and d, the motor that has farthest to go runs at full speed all the "
+        "way; on the straight line, it has at least as far to go." in flat("11", "able")
+    )
+    start, rng, slower = np.array([600, -350, 50]) * mm, np.random.default_rng(3), []
+    while len(slower) < 100:
+        goal = rng.uniform([-0.7, -0.7, 0], [0.7, 0.7, 0.6])
+        try:
+            line = straight(LOADER, start, goal, [10, 40, 40]).duration
+        except ValueError:
+            continue  # out of reach
+        ends = counts(station_postures(LOADER, np.stack([start, goal])), [10, 40, 40])
+        a, d = unsynchronised(*ends).duration, synchronised(*ends).duration
+        assert a == pytest.approx(d, abs=1e-12) and line >= d - 1e-9
+        slower.append(line > d + 1e-9)
+    assert 10 < sum(slower), "the straight line always takes as long"
+
+
+def test_half_a_pulse_moves_the_gripper_as_far_as_lab_11_prints():
+    """The printed product must be the largest error by motor 1; for [36, 72, 72], half of it."""
+    (angle, moved) = map(
+        float,
+        re.search(
+            r"half a pulse of motor 1: (\S+)°, at start (\S+) mm", shown("11", "pulses-code")
+        ).groups(),
+    )
+    q = station_postures(LOADER, np.array([[600, -350, 50]]) * mm)[0]
+    turned = LOADER.fk(q + [angle * deg, 0, 0]).translation
+    assert np.linalg.norm(turned - np.array([600, -350, 50]) * mm) / mm == pytest.approx(
+        moved, abs=0.006
+    )
+    assert angle == 0.5 * 1.8 / 18 and "makes this error smaller" in flat("11", "pulses-look")
 
 
 def test_motor_without_pulses_stands_still_in_lab_11():
@@ -984,7 +1029,8 @@ def test_answers_to_the_drag_tasks_of_lab_11_are_true():
     """The tasks are about path b, the limits of reach, the drift of the cycle and half steps."""
     start, loader = np.array([600, -350, 50]) * mm, loader_arm(0.45, 0.30)
     goal = numbers(
-        r"only shrink along the line, as for \((\S+), (\S+), (\S+)\) mm\.", flat("11", "able")
+        r"only shrink along the line, as for \((\S+), (\S+), (\S+)\) mm\.",
+        flat("11", "paths-look"),
     )
     share = np.linspace(0, 1, 2001)[:, None]
     line = start + share * (np.array(goal) * mm - start)
@@ -1019,9 +1065,16 @@ def test_answers_to_the_drag_tasks_of_lab_11_are_true():
     assert eight == rows["half-step"]
     assert (small, large) == (360 / eight, 360 / rows["wave"])
     wanted = numbers(r"turn such a rotor by (\S+)°\?", flat("11", "phases-own"))
-    assert "`[-1] * 5`, only in half-step drive" in flat("11", "phases-own")
-    assert [-5 * 360 / eight / 50] == wanted
+    (total,) = numbers(
+        r"Any with the sum (\S+), such as `\[-1\] \* 5`, in half-step drive only\.",
+        flat("11", "phases-own"),
+    )
+    assert [total * 360 / eight / 50] == wanted and total == -5
     assert wanted[0] / 1.8 % 1, "whole steps are enough"
+    for signs in ([-1] * 5, [-1] * 6 + [1], [1, -1, -1, -1, -1, -1, -1]):
+        field = energised(phases("half-step", "unipolar"), signs) @ np.array([1, 1j, -1, -1j])
+        turned = np.degrees(np.unwrap(np.angle(field)))
+        assert [(turned[-1] - turned[0]) / 50] == pytest.approx(wanted)
 
 
 def test_long_turns_and_lost_steps_are_as_stated():

@@ -418,7 +418,7 @@ CALLS = {
             per_degree=(10.0, 40.0, 40.0),
         ),
     ),
-    "motor_explorer": (figures.motor_explorer, dict(motor=STEPPER, alone=True)),
+    "motor_explorer": (figures.motor_explorer, dict(motor=STEPPER, alone=True, frequency=100.0)),
     "movement_explorer": (
         figures.movement_explorer,
         dict(arm=LEVERS, previous=FOLDED, target=POINT),

@@ -11,7 +11,7 @@ from typing import Literal, TypeAlias, TypedDict
 
 import numpy as np
 
-from .._validate import instance
+from .._validate import instance, number
 from ..jobs.steppers import FINE, LIMIT, NEARLY, ROTORS, SETTLED, SLOWEST, Stepper, phases
 from . import plots
 from .checks import yes
@@ -61,8 +61,8 @@ WORDS = {
     "ramped": "from {start} up to {top} per second and down again",
     "slow": "The run is shown {slow} times slower than real time.",
     "inStep": "Pulses sent: {sent}. The rotor has lost no steps.",
-    "behind": "Pulses sent: {sent}. The rotor is {lost} steps behind.",
-    "ahead": "Pulses sent: {sent}. The rotor is {lost} steps ahead.",
+    "behind": "Pulses sent: {sent}. Steps behind: {lost}.",
+    "ahead": "Pulses sent: {sent}. Steps ahead: {lost}.",
     "held": "You are holding the rotor. Let it go.",
     "tooMuch": "This row does not hold the load.",
     "step": "step",
@@ -78,14 +78,12 @@ WORDS = {
 }
 MEANT = (
     "Take hold of the ring on the rotor, turn it away, and let it go. Click a row of the table to "
-    "switch its windings on. The load is a weight on a drum: it always pulls backwards."
+    "switch its windings on."
 )
+MEANT_LOAD = " The load is a weight on a drum: it always pulls backwards."
 MEANT_ALONE = (
-    " The values beside the table: a pulse turns the rotor by one step. The motor can hold a load "
-    "up to the holding torque, and slowly move one up to the starting torque. Without a ramp, it "
-    "follows from rest up to the maximum start frequency. Above the maximum commutation frequency, "
-    "a current does not come within 5 % of its final value before the next pulse: the windings "
-    "pull less, but a strong motor can still follow."
+    " The values beside the table: a pulse turns the rotor by one step. From rest, the motor "
+    "follows pulses up to the maximum start frequency without losing a step."
 )
 Quantity: TypeAlias = Literal["end", "load", "inertia", "start", "ramp"]
 CONTROLS: Sequence[tuple[Quantity, float, str, str, float, float, float, int]] = (
@@ -96,7 +94,7 @@ CONTROLS: Sequence[tuple[Quantity, float, str, str, float, float, float, int]] =
     ("start", 1.0, "ramp from", "/s", SLOWEST, 200, 5, 0),
     ("ramp", 1e-3, "ramp time", "ms", 0, 500, 10, 0),
 )
-FREQUENCY = 160  # pulses per second on opening
+FREQUENCY = 160.0  # pulses per second on opening
 
 
 class PagePole(TypedDict):
@@ -191,7 +189,8 @@ class MotorValues(TypedDict):
 class PageMotors(TypedDict):
     """The data of the motor explorer. `pulses` is the number of pulses in a run, `opening` is the
     initial choice, `words` contains all its sentences, `code` the corresponding Python lines, with
-    blanks to fill, and `meant` the explanation below the view.
+    blanks to fill, and `meant` the explanation below the view. If the motor is `alone`, the view
+    has neither menus for other motors nor sliders for load and ramp.
     """
 
     kind: str
@@ -201,6 +200,7 @@ class PageMotors(TypedDict):
     meant: str
     words: dict[str, str]
     pulses: int
+    alone: bool
     rules: MotorRules
     own: MotorNumbers
     kinds: list[MotorKind]
@@ -210,33 +210,42 @@ class PageMotors(TypedDict):
     code: str
 
 
-def motor_explorer(motor: Stepper | None = None, *, alone: bool = False) -> Explorer:
+def motor_explorer(
+    motor: Stepper | None = None, *, alone: bool = False, frequency: float = FREQUENCY
+) -> Explorer:
     """Show a stepper motor along its shaft: the windings, coloured by their currents, the field,
     and a rotor that the reader can turn. Next to it is the phase table, in which the current row is
     marked. Pulses are sent one by one or as a run at a frequency, with a load and a ramp; lost
     steps are counted and drawn over time. Menus choose rotor, feed, windings and drive.
 
-    The explorer opens with `motor`, by default the motor of the document's table 1. All motors in
-    it have the torque, inertia, damping and `rise` of `motor`. With `alone`, the menus offer no
-    other rotor, feed or number of windings, and the explanation below the view says what the
-    motor's properties mean. Raises TypeError if `motor` is not a Stepper, and ValueError if its
-    runs take too long to compute.
+    The explorer opens with `motor`, by default the motor of the document's table 1, and with a run
+    at `frequency`, in pulses per second. All motors in it have the torque, inertia, damping and
+    `rise` of `motor`. With `alone`, only the drive, the frequency and the direction can be chosen:
+    there is no other rotor, feed or number of windings, no load and no ramp. Of the motor's
+    properties, the view then shows only the step and the maximum start frequency, and the
+    explanation below it says what they mean. Raises TypeError if `motor` is not a Stepper, and
+    ValueError if its runs take too long to compute or the frequency is not between `SLOWEST` and
+    `LIMIT`.
     """
     opened = Stepper() if motor is None else instance(motor, Stepper, "motor")
     kind = opened.rotor, opened.motor
-    lost = opened.run(np.arange(1, PULSES + 1) / FREQUENCY, np.ones(PULSES)).lost
+    pace = number(frequency, "frequency")
+    if not SLOWEST <= pace <= LIMIT:
+        wanted = f"wanted a number of pulses per second from {SLOWEST:g} to {LIMIT:g}"
+        raise ValueError(f"frequency: {wanted}, got {pace:g}")
+    lost = opened.run(np.arange(1, PULSES + 1) / pace, np.ones(PULSES)).lost
     summary = (
         f"A stepper motor, {KINDS[kind]}, {opened.windings} windings, "
         f"{DRIVES[opened.drive]} drive, {opened.step * 180 / np.pi:.3g}° per step. "
-        f"{PULSES} pulses at {FREQUENCY} per second: "
+        f"{PULSES} pulses at {pace:g} per second: "
         + (f"{lost} steps lost." if lost else "no steps lost.")
     )
-    page = _page(opened, summary)
+    page = _page(opened, summary, pace)
     if yes(alone, "alone"):
         chosen = page["opening"]
         only = page["kinds"][chosen["kind"]]
         only["motors"] = [only["motors"][chosen["motor"]]]
-        page["kinds"], page["meant"] = [only], MEANT + MEANT_ALONE
+        page["kinds"], page["meant"], page["alone"] = [only], MEANT + MEANT_ALONE, True
         chosen["kind"] = chosen["motor"] = 0
     return Explorer(page, _picture(opened, summary))
 
@@ -244,8 +253,8 @@ def motor_explorer(motor: Stepper | None = None, *, alone: bool = False) -> Expl
 # --- Page data ------------------------------------------------------------------------------------
 
 
-def _page(opened: Stepper, summary: str) -> PageMotors:
-    """Return the page data of the explorer that opens with this motor."""
+def _page(opened: Stepper, summary: str, pace: float) -> PageMotors:
+    """Return the page data of the explorer that opens with this motor and this frequency."""
     own: MotorNumbers = {
         "torque": opened.torque,
         "inertia": opened.inertia,
@@ -266,9 +275,10 @@ def _page(opened: Stepper, summary: str) -> PageMotors:
         "title": "A stepper motor, seen along its shaft",
         "summary": summary,
         "alt": summary,
-        "meant": MEANT,
+        "meant": MEANT + MEANT_LOAD,
         "words": WORDS,
         "pulses": PULSES,
+        "alone": False,
         "rules": {
             "fine": list(FINE),
             "settled": SETTLED,
@@ -286,7 +296,7 @@ def _page(opened: Stepper, summary: str) -> PageMotors:
             "kind": [*KINDS].index(kind),
             "motor": counts.index(opened.windings),
             "drive": [*DRIVES].index(opened.drive),
-            "end": FREQUENCY,
+            "end": pace,
             "load": 0,
             "inertia": 0,
             "start": 40,

@@ -1,4 +1,4 @@
-"""Exercise 2: a student's own move, and the mistakes in its gears and frequencies."""
+"""Exercise 2: a student's own cycle, and the mistakes in its gears, pulses and frequencies."""
 
 from collections.abc import Mapping
 from functools import cache
@@ -15,35 +15,37 @@ from robokin.units import wrapped
 
 from .shared import LOADER, STEP, A, B, Floats
 
-COUNT = 4
+COUNT = 5
 LENGTHS = np.array([A + B, A + B, B])  # from each joint to the end of the stretched arm
 COARSE = LENGTHS * STEP / 2 * deg  # how far half a step without a gear moves that end
 TOGETHER = 0.01  # working times that differ by a smaller share count as equal
-KEYS = ("gears", "frequencies")
-ENDS = tuple(f"{end}_{x}" for end in ("start", "goal") for x in "xyz")
+KEYS = ("gears", "pulses", "frequencies")
+STOPS = ("start", "goal", "home")  # the cycle goes on from the last one to the first
+PLACES = tuple(f"{stop}_{x}" for stop in STOPS for x in "xyz")
 Fault = tuple[str, str]
-Drive = tuple[Floats, Floats]  # gears and frequencies
+Drive = tuple[Floats, Floats, Floats]  # gears, pulses (moves, motors) and frequencies
 
 
 @cache
 def postures(places: tuple[float, ...]) -> Floats:
-    """Both postures of a move; joint 1 goes the short way."""
-    return station_postures(LOADER, np.reshape(places, (2, 3)))
+    """The postures at some points in turn; joint 1 goes the short way."""
+    return station_postures(LOADER, np.reshape(places, (-1, 3)))
 
 
-def move(numbers: Mapping[str, Any]) -> Floats:
-    """Both postures of a student's move."""
-    return postures(tuple(float(numbers[name]) for name in ENDS))
+def cycle(numbers: Mapping[str, Any]) -> Floats:
+    """The postures (4, 3) of a student's cycle; the last is the first again."""
+    return postures(tuple(float(numbers[name]) for name in (*PLACES, *PLACES[:3])))
 
 
 def pulses_of(q: Floats, gears: Floats) -> Floats:
-    """The pulses from one posture to the other, without signs."""
+    """The pulses from the first posture to the second, without signs."""
     return np.asarray(abs(np.diff(counts(q, gears / STEP), axis=0)[0]), dtype=float)
 
 
 def given(who: Any) -> Numbers:
-    """Two points on either side of the direction 180°, the greatest miss and frequency that are
-    allowed, and about 1.2 times the time that the smallest gears need.
+    """Two points on either side of the direction 180° and a third one, such that the cycle drifts
+    with the smallest gears if every move is rounded; the greatest miss and frequency that are
+    allowed, and about 1.2 times the time that the smallest gears need for the first move.
     """
     roll = dice("motor_synchronisation", who)
     while True:
@@ -61,28 +63,37 @@ def given(who: Any) -> Numbers:
             break
     least = np.ceil(COARSE / miss - 1e-9)  # the smallest gears that are fine enough
     needed = float((turns * least).max()) / STEP / most
-    values: dict[str, Any] = dict(zip(ENDS, places, strict=True))
+    while True:
+        home = [-roll.randrange(250, 560, 10), roll.randrange(-250, 260, 10)]
+        stops = (*places, *(float(x * mm) for x in (*home, roll.randrange(50, 400, 10))))
+        ways = np.diff(exact(postures((*stops, *stops[:3])), least), axis=0)
+        if np.linalg.norm(stops[6:]) < 0.7 and np.rint(ways).sum(axis=0).any():
+            break
+    values: dict[str, Any] = dict(zip(PLACES, stops, strict=True))
     values |= {"miss": miss, "most": most, "seconds": float(np.ceil(12 * needed) / 10)}
-    units = dict.fromkeys([*ENDS, "miss"], ("mm", mm))
+    units = dict.fromkeys([*PLACES, "miss"], ("mm", mm))
     return Numbers(values, units | {"most": ("pulses/s", 1.0), "seconds": ("s", 1.0)})
 
 
 def form(answer: Any, numbers: Any) -> Drive:
     if not isinstance(answer, Mapping) or not set(KEYS) <= set(answer):
-        wanted = 'wanted {"gears": [three whole numbers], "frequencies": [three]}'
+        wanted = (
+            'wanted {"gears": [three], "pulses": [three rows of three], "frequencies": [three]}'
+        )
         raise ValueError(f"{wanted}, got {in_words(answer)}")
     found = []
     for key in KEYS:
+        size, wanted = (3, "three numbers") if key != "pulses" else (9, "three rows of three")
         try:
             values = floats(answer[key])
         except (TypeError, ValueError):
             values = np.empty(0)
         if values.size == 1 and key == "gears":
             values = np.full(3, float(values.reshape(())))
-        if values.size != 3 or not np.isfinite(values).all():
-            raise ValueError(f"{key}: wanted three numbers, got {in_words(answer[key])}")
-        found.append(values.reshape(3))
-    gears, omega = found
+        if values.size != size or not np.isfinite(values).all():
+            raise ValueError(f"{key}: wanted {wanted}, got {in_words(answer[key])}")
+        found.append(values.reshape(3) if size == 3 else values.reshape(3, 3))
+    gears, sent, omega = found
     if (gears < 1).any() or (gears % 1).any() or (gears > 100_000).any():
         raise ValueError(f"gears: wanted whole numbers from 1 up, got {in_words(gears)}")
     if (omega <= 0).any():
@@ -90,12 +101,12 @@ def form(answer: Any, numbers: Any) -> Drive:
             "frequencies: wanted three positive numbers, because every motor has to move and the "
             f"direction is in the sign of the pulses, got {in_words(omega)}"
         )
-    return gears, omega
+    return gears, sent, omega
 
 
 def faults(drive: Drive, numbers: Any) -> list[Fault]:
-    gears, omega = drive
-    found = []
+    gears, sent, omega = drive
+    found, q = [], cycle(numbers)
     miss, most, seconds = (float(numbers[key]) for key in ("miss", "most", "seconds"))
     ends = COARSE / gears
     if (ends > miss * (1 + 1e-9)).any():
@@ -112,12 +123,87 @@ def faults(drive: Drive, numbers: Any) -> list[Fault]:
         runs, allowed = apart(omega[fast[0]], most)
         says = f"Motor {fast[0] + 1} runs at {runs} pulses/s; at most {allowed} are allowed."
         found.append(("above the limit", says))
-    pulses = pulses_of(move(numbers), gears)
+    if (sent != np.diff(counts(q, gears / STEP), axis=0)).any():
+        found.append(wrong_pulses(q, gears, sent))
+    pulses = pulses_of(q, gears)
     if not close(pulses / omega):
-        found.append(not_together(move(numbers), gears, omega, pulses))
+        found.append(not_together(q, gears, omega, pulses))
     if (pulses / omega).max() > seconds * (1 + 1e-9):
         found.append(too_slow(gears, omega, pulses, most, seconds))
     return found
+
+
+def exact(q: Floats, gears: Floats) -> Floats:
+    """The positions of the motors at some postures, in pulses and not rounded."""
+    return np.asarray(q / deg * gears / STEP)
+
+
+def wrong_pulses(q: Floats, gears: Floats, sent: Floats) -> Fault:
+    """Why these are not the differences of the rounded positions."""
+    due, right = exact(q, gears), np.diff(counts(q, gears / STEP), axis=0)
+    off = abs(np.cumsum(sent - right, axis=0))  # at every stop
+    i, k = divmod(int(off.argmax()), off.shape[1])
+    stop = (*STOPS[1:], STOPS[0])[i]
+    away = f"of motor {k + 1} end {said(off[i, k])} from the position nearest to {stop}"
+    k = int(off[-1].argmax())
+    drift = (
+        f"After one cycle, motor {k + 1} is {said(off[-1, k])} from where it began, and this error "
+        "grows with every cycle."
+        if off[-1].any()
+        else "Then a motor does not always stop as near as possible to a point."
+    )
+    short = np.column_stack([wrapped(q[:, 0]), q[:, 1:]])
+    why = {
+        "pulses that are not whole": (
+            [np.diff(due, axis=0)],
+            "A motor makes only whole pulses. Round the positions.",
+        ),
+        "every move rounded": ([np.rint(np.diff(due, axis=0))], f"You rounded every move. {drift}"),
+        "the signs of the pulses": (
+            [abs(right), -right],
+            "The sign of a number of pulses is the direction: + if the angle of the joint grows. "
+            "The numbers are right apart from their signs.",
+        ),
+        "the long way round": (
+            [np.diff(counts(short, gears / STEP), axis=0)],
+            "From one side of the direction 180° to the other, motor 1 takes the long way: the "
+            "shorter way does not pass 0°.",
+        ),
+        "positions truncated": (
+            [np.diff(cut(due), axis=0) for cut in (np.trunc, np.floor, np.ceil)],
+            "Nothing drifts, but you cut off the fraction of a pulse. Round to the nearest pulse, "
+            "so that no motor stops more than half a pulse from a point.",
+        ),
+        "positions instead of pulses": (
+            [np.rint(due[:3]), np.rint(due[1:])],
+            "You give positions, in pulses from zero. A row contains the pulses of a move: the "
+            "difference of two positions.",
+        ),
+        "the gears left out": (
+            [np.diff(np.rint(exact(q, np.ones(3))), axis=0)],
+            "With a gear of r : 1, the motor needs r times as many pulses: you left out the gears.",
+        ),
+        "degrees for pulses": (
+            [np.rint(np.diff(q / deg, axis=0)), np.diff(np.rint(q / deg), axis=0)],
+            "You give degrees of the joints. Multiply angles by the pulses per degree.",
+        ),
+        "rows and columns swapped": (
+            [right.T],
+            "You swapped rows and columns: each row is a move, and each column is a motor.",
+        ),
+    }
+    for name, (programs, says) in why.items():
+        if any(np.allclose(sent, each, rtol=0, atol=1e-6) for each in programs):
+            return name, says
+    if (sent % 1).any():
+        return "pulses that are not whole", why["pulses that are not whole"][1]
+    return "wrong pulses", (
+        f"Your pulses {away}. The pulses of a move are the difference of two rounded positions."
+    )
+
+
+def said(pulses: float) -> str:
+    return "1 pulse" if pulses == 1 else f"{pulses:.0f} pulses"
 
 
 def close(values: Floats) -> bool:
@@ -128,7 +214,7 @@ def not_together(q: Floats, gears: Floats, omega: Floats, pulses: Floats) -> Fau
     """Why the motors do not stop at the same time."""
     times = ", ".join(f"{t:.3f}" for t in pulses / omega)
     told = f"The motors need {times} s for {', '.join(f'{p:.0f}' for p in pulses)} pulses."
-    turns = abs(np.diff(q, axis=0)[0] / deg)
+    turns = abs(np.diff(q, axis=0)[0] / deg)  # in the first move
     long = pulses_of(np.column_stack([wrapped(q[:, 0]), q[:, 1:]]), gears)
     why = {
         "the long way round": f"Your frequencies are for {long[0]:.0f} pulses of motor 1. From one "
@@ -139,7 +225,7 @@ def not_together(q: Floats, gears: Floats, omega: Floats, pulses: Floats) -> Fau
         "the most pulses stops last.",
         "the gears left out": "Your frequencies are proportional to the turns of the joints, not "
         "to the pulses: you left out the gears.",
-        "divided by the gear": "You divided by the gear. With a gear of i : 1 the motor needs i "
+        "divided by the gear": "You divided by the gear. With a gear of r : 1 the motor needs r "
         "times as many pulses.",
     }
     fits = (

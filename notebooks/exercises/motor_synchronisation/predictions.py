@@ -102,7 +102,12 @@ def p5() -> dict[str, Any]:
         for move in geared().values()
     )
     right = "longer" if a > 1.02 * d else "shorter" if a < 0.98 * d else "as long"
-    return {"a": a, "d": d, "line": float(np.linalg.norm(GOAL - START)) / mm, "right": right}
+    return {
+        "a": a,
+        "d": d,
+        "line": round(float(np.linalg.norm(GOAL - START)) / mm, -1),
+        "right": right,
+    }
 
 
 def p6() -> dict[str, Any]:

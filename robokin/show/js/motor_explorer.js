@@ -193,7 +193,8 @@ function choices(stage, bench, data) {
     stage.changed();
   };
   const menus = menusOf(bench, data, () => changed(true));
-  const sliders = data.controls.map(spec =>
+  const offered = data.alone ? data.controls.filter(({key}) => key === "end") : data.controls;
+  const sliders = offered.map(spec =>
     slider(spec, x => {
       state[spec.key] = Math.min(Math.max(x, spec.low), spec.high);
       changed(false);
@@ -213,18 +214,19 @@ function choices(stage, bench, data) {
   return {
     tell() {
       menus.tell();
-      data.controls.forEach((spec, k) => sliders[k].set(state[spec.key]));
+      offered.forEach((spec, k) => sliders[k].set(state[spec.key]));
     },
   };
 }
 
 /**
- * The menus of the motor: rotor and feed, windings (which depend on them), and the drive.
+ * The menus of the motor: rotor and feed, windings (which depend on them), and the drive. A motor
+ * that is alone has only the last one.
  * @param {Bench} bench
  * @param {PageMotors} data
  * @param {() => void} changed
  */
-function menusOf(bench, {words: says, kinds, drives}, changed) {
+function menusOf(bench, {words: says, kinds, drives, alone}, changed) {
   const {state} = bench;
   const kind = menu(
     says.motor,
@@ -259,7 +261,7 @@ function menusOf(bench, {words: says, kinds, drives}, changed) {
     },
   );
   return {
-    rows: [kind, ...counts, drive].map(each => each.row),
+    rows: (alone ? [drive] : [kind, ...counts, drive]).map(each => each.row),
     tell() {
       kind.set(state.kind);
       drive.set(state.drive);

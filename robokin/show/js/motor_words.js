@@ -11,12 +11,21 @@ import {degrees, plain} from "./turns.js";
 /** @import {Bench} from "./bench.js" */
 
 /**
- * The table of the properties of the motor.
+ * The table of the properties of the motor; without loads, only the step and the maximum start
+ * frequency.
  * @param {Bench} bench
  * @param {PageMotors} data
  */
-export function factTable(bench, {words: says, pulses, rules}) {
-  const names = [says.step, says.holding, says.starting, says.startFrequency, says.commutation];
+export function factTable(bench, {words: says, pulses, rules, alone}) {
+  /** @type {<T>(all: T[]) => T[]} */
+  const shown = all => all.filter((_, k) => !alone || k === 0 || k === 3);
+  const names = shown([
+    says.step,
+    says.holding,
+    says.starting,
+    says.startFrequency,
+    says.commutation,
+  ]);
   const rows = table(
     names,
     [],
@@ -40,7 +49,7 @@ export function factTable(bench, {words: says, pulses, rules}) {
       starts.set(key, first);
       const {limit, slowest, nearly} = rules;
       const started = first < limit ? says.perSecond : says.orMore;
-      rows.set([
+      const values = [
         [fill(says.degrees, {value: plain(degrees(stepOf(motor)), 2)})],
         [torque(holdingTorque(motor))],
         [torque(startingTorque(motor))],
@@ -50,7 +59,8 @@ export function factTable(bench, {words: says, pulses, rules}) {
             value: motor.rise ? number(1 / (nearly * motor.rise), 0) : "\u221E",
           }),
         ],
-      ]);
+      ];
+      rows.set(shown(values));
     },
   };
 }

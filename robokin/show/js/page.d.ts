@@ -767,6 +767,7 @@ export interface PageMotors {
   meant: string;
   words: Record<string, string>;
   pulses: number;
+  alone: boolean;
   rules: MotorRules;
   own: MotorNumbers;
   kinds: MotorKind[];
