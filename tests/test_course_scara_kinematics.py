@@ -29,7 +29,7 @@ def _by_direction(q1, q2, l1, along, side):
 
 
 def _by_a_longer_arm(q1, q2, l1, along, side):
-    """Use the inverse of a SCARA whose second lever ends at the camera."""
+    """Use the inverse of a SCARA whose second link ends at the camera."""
     reach, offset = np.hypot(along, side), np.arctan2(side, along)
     arm = scara_arm("to the camera", 1.0, l1, reach, np.array([(-4, 4)] * 3 + [(0, 1)]))
     rows = arm.ik(arm.fk([q1, q2 + offset, 0, 0]))

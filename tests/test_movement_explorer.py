@@ -7,6 +7,7 @@ import re
 import numpy as np
 import pytest
 import test_explorers
+from canvas_words import NEXT
 from scipy.optimize import brentq
 
 from robokin import IRB140, deg, three_lever
@@ -287,10 +288,13 @@ def test_angles_are_named_only_where_a_posture_reaches_the_point(opened):
     def named():
         return {"γ", "β"} & set(scene.evaluate("canvas => canvas.words"))
 
+    shown.page.evaluate(NEXT)
     assert ring.is_visible() and named() == {"γ", "β"}
     for letter, value in (("x", -1.2), ("y", 0.5)):
         shown.type(letter, value)
+    shown.page.evaluate(NEXT)
     assert "No posture reaches this point" in shown.page.locator(".rk-says").inner_text()
     assert not ring.is_visible() and not named()
     shown.type("y", 1.6)
+    shown.page.evaluate(NEXT)
     assert ring.is_visible() and named() == {"γ", "β"}

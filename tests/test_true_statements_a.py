@@ -633,11 +633,11 @@ def test_pale_curves_of_the_circle_belong_to_the_stated_radius():
 
 
 def test_largest_circle_of_another_scara_touches_the_hole_and_the_full_reach():
-    for value in ("np.array([325, 225]) * mm", *tries("04", "carry-code", "levers")):
-        made, said = run("04", "target-code", "carry-code", name="levers", value=value)
+    for value in ("np.array([325, 225]) * mm", *tries("04", "carry-code", "lengths")):
+        made, said = run("04", "target-code", "carry-code", name="lengths", value=value)
         assert re.findall(r"inside all limits: (\w+)", said) == ["False", "True"], value
         touched = made["centre"] - made["largest"], made["centre"] + made["largest"]
-        assert touched == pytest.approx((made["other_hole"], made["levers"].sum()))
+        assert touched == pytest.approx((made["other_hole"], made["lengths"].sum()))
 
 
 def test_omega_is_not_used_in_lab_04():
@@ -648,7 +648,7 @@ def test_omega_is_not_used_in_lab_04():
 def test_elbow_plus_one_bends_to_the_left_in_both_labs():
     q1, q2 = SCARA.ik(ScaraPose((0.25, 0.1, 0.1)))[SCARA.branch(+1), :2]
     first, second = (np.array([np.cos(x), np.sin(x)]) for x in (q1, q1 + q2))
-    # seen along the first lever, the second one points to the left
+    # seen along the first link, the second one points to the left
     assert first[0] * second[1] - first[1] * second[0] > 0 and q2 > 0
     assert (
         "with +1, the arm bends to the left, and with −1, it bends to the right"

@@ -295,9 +295,9 @@ def test_only_the_arms_length_limits_the_reach_in_front():
     assert not served(-0.38, 0) and served(-0.36, 0)
 
 
-def test_first_lever_turns_by_the_stated_angle_if_the_second_is_short():
+def test_first_link_turns_by_the_stated_angle_if_the_second_is_short():
     _, options, _ = asked("scara_kinematics.p3")
-    pattern = r"levers of (\d+) and (\d+) mm, the first one turns by at most (\d+)°"
+    pattern = r"links of (\d+) and (\d+) mm, the first one turns by at most (\d+)°"
     l1, l2, most = numbers(pattern, " ".join(each.second for each in options))
     q2 = np.linspace(-np.pi, np.pi, 100001)
     inner = np.arctan2(l2 * np.sin(q2), l1 + l2 * np.cos(q2))
@@ -872,7 +872,7 @@ def test_other_arm_is_asked_for_a_seventh_of_its_mean_lever():
 def test_planning_method_changes_at_the_stated_places():
     text = flat("10", "cube-text")
     told = numbers(
-        r"Down to (\S+) m, the direct motion is clear\. From (\S+) to (\S+) m, via points are "
+        r"At (\S+) m, the direct motion is clear\. From (\S+) to (\S+) m, via points are "
         r"enough\. From (\S+) to (\S+) m, a search",
         text,
     )

@@ -298,7 +298,7 @@ def zone_area(a, m, l1=0.2, l2=0.25):
 )
 def test_area_formula_holds_or_the_cell_says_that_it_does_not(stops, stop):
     words = flat("04", "deeper-area")
-    assert r"let the second lever turn as far as its mirror image: $\gamma \le m$" in words
+    assert r"let the second link turn as far as its mirror image: $\gamma \le m$" in words
     assert "at $q_2 = m$ is at most $a$. Then, for $a \\le 180°$:" in words
     told = io.StringIO()
     changed = [("stops = [140, 150]", f"stops = {list(stops)}"), ("fine = 2.0", "fine = 4.0")]

@@ -936,7 +936,7 @@ def test_plans_for_80_mm_wide_levers_exist_but_one_needs_a_larger_circle():
 
 
 def test_controller_refuses_every_task_at_the_largest_distance():
-    (at,) = numbers(r"Which lines does (\S+) mm change", flat("10", "control-look"))
+    (at,) = numbers(r"Which lines change with (\S+) mm", flat("10", "control-look"))
     told = {int(k) for k in re.findall(r"\d", flat("10", "control-look").split("Lines ")[1][:12])}
     lines = []
     for distance in ("WANTED", f"{at:g} * mm"):

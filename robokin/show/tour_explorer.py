@@ -57,7 +57,7 @@ WORDS = {
     "veiled": "The best order appears when all points are in your order.",
     "scene": "An arm and {n} points.",
     "asleep": "Inactive: moving the points needs Python. Run this cell to activate it. Until then, "
-    "you can tap the points in an order of your own, and play the tours.",
+    "you can tap the points in your own order, and play the tours.",
     "count": "within T",
     "time": "time, s",
     "add": "Add a point",
@@ -69,9 +69,9 @@ WORDS = {
     "away": "out of reach",
 }
 MEANT = (
-    "Tap the points in an order of your own, or drag them. Tap a point again to remove it from "
-    "your order. A drag moves a point or p0 in the plane of the screen; turn the view to move it "
-    "in another direction. Click a row of the table to choose its tour. The dotted circle "
+    "Tap the points in your own order, or drag them. Tap a point again to remove it from "
+    "your order. A drag moves a point or p0 in the plane of the screen; turn the view for "
+    "another direction. Click a row of the table to choose its tour. The dotted circle "
     "shows how far the arm reaches on the floor; a wide red band shows where the tool dips under "
     "the floor."
 )

@@ -175,7 +175,7 @@ def first_come_slips(
         ),
     ]
     name, says = slip(told[k], slips, "another number under first come")
-    return name, f"For y = {('−0.45', '0.45')[k]} m: {says}"
+    return name, f"For y = {'−+'[k]}0.45 m: {says}"
 
 
 def ends(place: tuple[float, float]) -> list[tuple[float, float]]:

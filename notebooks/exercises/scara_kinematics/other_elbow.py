@@ -18,9 +18,9 @@ Case = tuple[float, float, float, float, float]
 
 
 def cases(rng: np.random.Generator) -> list[Case]:
-    """Joints 1 and 2, the first lever, and the place of the camera along and beside the second."""
+    """Joints 1 and 2, the first link, and the place of the camera along and beside the second."""
     postures = [
-        (0, 90, 200, 250, 0),  # the camera at the end of the lab's second lever
+        (0, 90, 200, 250, 0),  # the camera at the end of the lab's second link
         (0, 90, 200, 250, 100),
         (0, -90, 200, 250, 100),
         (40, 60, 300, 150, 60),
@@ -29,7 +29,7 @@ def cases(rng: np.random.Generator) -> list[Case]:
         (25, -np.degrees(np.arctan2(80, 200)), 250, 200, 80),  # straight: its own mirror image
         (0, 140, 200, 260, 40),  # the angle inside the triangle is obtuse
         (20, -160, 200, 240, 50),
-        (130, 100, 350, 100, 200),  # the camera is more beside the lever than along it
+        (130, 100, 350, 100, 200),  # the camera is more beside the link than along it
         (-130, 80, 350, -50, 120),
     ]
     found = [(a * deg, b * deg, c * mm, d * mm, e * mm) for a, b, c, d, e in postures]

@@ -43,7 +43,7 @@ def elbow_at(q1: float) -> Any:
 def p3_view() -> Any:
     fig = Sketch(
         "From above: the two elbows of one target are mirror images in the line from joint 1 to "
-        "the target. The first levers make the same angle with that line, on either side of it.",
+        "the target. The first links make the same angle with that line, on either side of it.",
         title="Mirror images in the line to the target",
     )
     target = MIRRORED
@@ -60,7 +60,7 @@ def p3_view() -> Any:
 def p4_view() -> Any:
     q2, corner, sine = sine_angles(SINE_AT)
     fig = Sketch(
-        "A target 130 mm from joint 1. With the right angle the second lever ends at the target, "
+        "A target 130 mm from joint 1. With the right angle the second link ends at the target, "
         "with the angle from the arcsine it ends next to it.",
         title="With the arcsine (dashed) the arm misses the target",
     )
@@ -75,10 +75,10 @@ def p4_view() -> Any:
 
 def p5_view() -> Any:
     fig = Sketch(
-        "From above: a place behind the arm and both elbows. The first lever of elbow +1 is "
+        "From above: a place behind the arm and both elbows. The first link of elbow +1 is "
         "between the stops of joint 1, that of elbow −1 (dashed) is in the shaded sector beyond "
         "them.",
-        title="The first lever cannot enter the shaded sector",
+        title="The first link cannot enter the shaded sector",
     )
     closed = np.linspace(HIGH[0], 2 * np.pi - HIGH[0], 40)
     x, y = 230 * np.cos(closed), 230 * np.sin(closed)

@@ -45,7 +45,7 @@ export function control(tag, attributes, ...children) {
     node = element(tag, {[forbids]: "true", ...attributes}, ...children);
   node.addEventListener("keydown", event => {
     const {key, shiftKey, ctrlKey, metaKey} = event;
-    const passes = shiftKey ? key === "Enter" : (ctrlKey || metaKey) && key.toLowerCase() === "s";
+    const passes = shiftKey ? key === "Enter" : (ctrlKey || metaKey) && /^s$/i.test(key);
     if (!event.isTrusted || !passes) return;
     event.preventDefault(); // a button would be pressed, or the browser would save the page
     node.removeAttribute(forbids);
