@@ -994,7 +994,7 @@ def test_half_a_pulse_moves_the_gripper_as_far_as_lab_11_prints():
     assert np.linalg.norm(turned - np.array([600, -350, 50]) * mm) / mm == pytest.approx(
         moved, abs=0.006
     )
-    assert angle == 0.5 * 1.8 / 18 and "makes this error smaller" in flat("11", "pulses-look")
+    assert angle == 0.5 * 1.8 / 18 and "makes this bound smaller" in flat("11", "pulses-look")
 
 
 def test_motor_without_pulses_stands_still_in_lab_11():
