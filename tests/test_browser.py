@@ -489,7 +489,12 @@ def _moves(page, player, slider):
     assert float(value) < between < float(slider.get_attribute("max"))
     slider.press("Home")
     page.evaluate(NEXT_FRAME)
-    assert _seen(player) == first
+    back = _seen(player)
+    # pixels depend on whether the opening picture was drawn before or after a late redraw
+    slider.press("End")
+    slider.press("Home")
+    page.evaluate(NEXT_FRAME)
+    assert _seen(player) == back and vars(back) | {"pixels": 0} == vars(first) | {"pixels": 0}
 
 
 def _answers(page, player, stiff=False):
