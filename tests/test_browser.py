@@ -466,6 +466,7 @@ def _moves(page, player, slider):
     """
     slider.scroll_into_view_if_needed()
     slider.focus()
+    slider.press("End")  # a clock paused within the first tick would ignore Home
     slider.press("Home")
     page.evaluate(NEXT_FRAME)
     first, value = _seen(player), slider.input_value()
@@ -489,12 +490,7 @@ def _moves(page, player, slider):
     assert float(value) < between < float(slider.get_attribute("max"))
     slider.press("Home")
     page.evaluate(NEXT_FRAME)
-    back = _seen(player)
-    # pixels depend on whether the opening picture was drawn before or after a late redraw
-    slider.press("End")
-    slider.press("Home")
-    page.evaluate(NEXT_FRAME)
-    assert _seen(player) == back and vars(back) | {"pixels": 0} == vars(first) | {"pixels": 0}
+    assert _seen(player) == first
 
 
 def _answers(page, player, stiff=False):
