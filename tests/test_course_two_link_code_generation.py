@@ -17,14 +17,22 @@ WHO = next(
 OWN = variant("two_link_code_generation", WHO)
 BX, BY, L1, L2 = (OWN[name] for name in ("base_x", "base_y", "l1", "l2"))
 K, L = (L1**2 - L2**2) / 2, L1**2
-RIGHT = {
-    "dx": f"x3 - {BX}",
-    "dy": f"y3 - {BY}",
-    "d2": "dx*dx + dy*dy",
-    "a": f"0.5 + {K} / d2",
-    "h": f"sqrt({L} / d2 - a*a)",
-    "px": f"{BX} + a*dx",
-    "py": f"{BY} + a*dy",
+
+
+def numbered(x, y, k, square):
+    """The lines of a right program that contain numbers: the base, K and l1²."""
+    return {
+        "dx": f"x3 - {x}",
+        "dy": f"y3 - {y}",
+        "d2": "dx*dx + dy*dy",
+        "a": f"0.5 + {k} / d2",
+        "h": f"sqrt({square} / d2 - a*a)",
+        "px": f"{x} + a*dx",
+        "py": f"{y} + a*dy",
+    }
+
+
+RIGHT = numbered(BX, BY, K, L) | {
     "u": "h*dy",
     "v": "h*dx",
     "xr": "px + u",
@@ -103,14 +111,9 @@ def test_slips_are_named_even_if_they_give_nan_for_every_tip(name, who):
     own = variant("two_link_code_generation", who)
     x, y, l1, l2 = (own[each] for each in ("base_x", "base_y", "l1", "l2"))
     k, square = (l1**2 - l2**2) / 2, l1**2
-    lines = {
-        "dx": f"x3 - {x}",
-        "dy": f"y3 - {y}",
-        "a": f"0.5 + {2 * k if name == 'K not halved' else k} / d2",
-        "h": f"({l1 if '²' in name else square} / d2 - {'a' if 'not sq' in name else 'a*a'})**0.5",
-        "px": f"{x} + a*dx",
-        "py": f"{y} + a*dy",
-    }
+    lines = numbered(x, y, 2 * k if name == "K not halved" else k, l1 if "²" in name else square)
+    if name == "a not squared":
+        lines["h"] = f"sqrt({square} / d2 - a)"
     verdict = check("two_link_code_generation.2", program(**lines), who=who)
     assert name in verdict.mistake.split(" or "), verdict
 
@@ -122,9 +125,8 @@ def test_constants_with_two_digits_are_called_nearly_right():
         k, square = round((l1**2 - l2**2) / 2, 2), round(l1**2, 2)
         if abs(k - (l1**2 - l2**2) / 2) + abs(square - l1**2) < 1e-9:
             continue
-        lines = {"dx": f"x3 - {x}", "dy": f"y3 - {y}", "a": f"0.5 + {k} / d2"}
-        lines |= {"h": f"sqrt({square} / d2 - a*a)", "px": f"{x} + a*dx", "py": f"{y} + a*dy"}
-        verdict = check("two_link_code_generation.2", program(**lines), who=who)
+        own_program = program(**numbered(x, y, k, square))
+        verdict = check("two_link_code_generation.2", own_program, who=who)
         assert verdict.mistake == "nearly right" and "enough digits?" in verdict.says[0]
 
 
