@@ -242,9 +242,10 @@ def test_shift_enter_and_ctrl_s_work_from_a_control_as_from_a_cell(jupyter, page
     )
     view, unsaved = page.locator(PLAYER).first, page.locator(".jp-mod-dirty")
     for control in ("[data-handle]", "button"):
-        awake(page)  # the first Shift+Enter makes the view again
+        awake(page)
         view.scroll_into_view_if_needed()
         node = view.locator(control).locator("visible=true").first
+        view.evaluate("node => node.toggleAttribute('data-old', true)")
         node.hover()
         page.mouse.down()  # a click in its output makes the view's cell the active one
         page.mouse.up()
@@ -261,6 +262,8 @@ def test_shift_enter_and_ctrl_s_work_from_a_control_as_from_a_cell(jupyter, page
             f"{control}: Shift+Enter does not go to the next cell",
             page,
         )
+        page.locator("[data-old]").wait_for(state="detached")  # the cell makes its view again
+        view.wait_for(state="attached")
     assert page.errors == []
 
 

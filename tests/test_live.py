@@ -363,6 +363,7 @@ def test_letters_go_back_when_the_kernel_has_ended(quiet, tmp_path):
     plan_explorer(ARM, START, (1.9, 0.3), (1.2, 1.3)).save(tmp_path / "plan.html")
     quiet.goto((tmp_path / "plan.html").as_uri())
     player, H = quiet.locator(".robokin-player"), quiet.locator("[data-handle=H]")
+    quiet.locator(".robokin-player[data-ready]").wait_for()  # before that, no one hears the event
     player.evaluate("""e => e.dispatchEvent(new CustomEvent(
       "robokin-wake", {detail: () => { throw new Error("no kernel"); }}))""")
     quiet.locator(".robokin-player[data-awake]").wait_for()
