@@ -149,8 +149,11 @@ def test_advice_on_lost_steps_names_the_number_to_change():
     between = (f + strong) / 2, 2 * f, 0.2  # both motors lose steps, but only one cannot start
     assert MOTOR.run(ramp(48, *between), np.ones(48), 0, load).lost
     assert f"the weaker motor follows at most {f:.0f} pulses/s: lower `start`" in says(*between)
-    for at in ((0.95 * f, 3 * f, 0.05), between):
+    for at in (between, (1.1 * f, 3 * f, 0.05)):
         assert check("rotor.1", named(*at), who="Ada").mistake == "begins too fast"
+    rises = 0.95 * f, 3 * f, 0.05  # no start helps: the rise is the cause
+    assert all(loses(k * f, *rises[1:]) for k in np.linspace(0.05, 1, 20))
+    assert check("rotor.1", named(*rises), who="Ada").mistake == "too steep or too fast"
     flat = check("rotor.1", named(0.9 * f, 0.9 * f, 0), who="Ada")
     assert flat.mistake == "no ramp" and "has to rise" in flat.says[0]
     assert loses(0.9 * f, 0.9 * f, 0) is False and "s are allowed" in flat.says[0]

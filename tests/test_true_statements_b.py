@@ -915,12 +915,18 @@ def test_errors_near_the_line_x3_0_are_as_stated():
         return max(abs(np.hypot(*elbow) - 1), abs(np.hypot(elbow[0] - x3, elbow[1] - 1) - 1))
 
     x3, off = said(
-        "12", "edges-look", r"(\S+) nm from \$x_3 = 0\$, the elbow from section 3 is (\S+) nm off"
+        "12",
+        "edges-look",
+        r"(\S+) nm from \$x_3 = 0\$, section 3 makes the links (\S+) nm too short",
     )
-    assert round(1e9 * error(made["elbow_by_root"], x3 * 1e-9)) == off
+    elbow = made["elbow_by_root"](x3 * 1e-9, 1.0, 1.0)
+    for end in ((0, 0), (x3 * 1e-9, 1.0)):
+        assert round(1e9 * (1 - np.hypot(*(elbow - np.array(end))))) == off
     assert made["edges"][f"{x3:.0f} nm off x3 = 0"][0] == (x3 * 1e-9, 1.0)
-    off, power = said("12", "sides-look", r"wrong by (\S+) µm at \$10\^\{(-\d+)\}\$ m")
-    assert round(1e6 * error(made["elbow_by_root"], 10**power)) == off
+    off, power = said(
+        "12", "sides-look", r"makes link 1 (\S+) µm too short at \$10\^\{(-\d+)\}\$ m"
+    )
+    assert round(1e6 * (1 - np.hypot(*made["elbow_by_root"](10**power, 1.0, 1.0)))) == off
     power, far = said(
         "12", "sides-look", r"at \$10\^\{(-\d+)\}\$ m its elbow is already only (\S+) m"
     )

@@ -19,7 +19,8 @@ COUNT = 3
 KEYS = ("start", "end", "seconds")
 WEAK = replace(MOTOR, torque=0.8 * MOTOR.torque)
 SHARE = 0.75  # the time allowed, as a share of the shortest time without a ramp
-NEAR = 0.85  # a start above this share of the start frequency leaves no room for a rise
+NEAR = 0.85  # a start above this share of the start frequency leaves no room for a rise,
+ROOM = 0.6  # and one at this share does
 ONLY_FULL = "only with the full torque"
 LONGEST = 10.0  # s: a longer move is not simulated
 RISE = "The frequency has to rise: `end` above `start`, and `seconds` above 0."
@@ -108,7 +109,7 @@ def too_slow(answer: Ramp, within: float) -> str:
 
 def why_lost(answer: Ramp, motor: Stepper, load: float) -> Fault:
     """The name of the mistake in a ramp with which this motor loses steps, and what to change."""
-    start, end, _ = answer
+    start, end, seconds = answer
     if is_flat(answer):
         return "no ramp", RISE
     top, weak = fastest_start(motor, load), fastest_start(WEAK, load)
@@ -120,7 +121,8 @@ def why_lost(answer: Ramp, motor: Stepper, load: float) -> Fault:
     if start > weak:
         change = f"From rest, the weaker motor follows at most {weak:.0f} pulses/s: lower `start`."
         return "begins too fast", change
-    if start > NEAR * weak:
+    lower = ramp(PULSES, ROOM * weak, end, seconds)
+    if start > NEAR * weak and not motor.run(lower, ONES, 0, load).lost:
         change = "It begins too close to the weaker motor's start frequency: lower `start`."
         return "begins too fast", change
     change = "The frequency rises too steeply or too far: raise `seconds`, or lower `end`."
