@@ -8,6 +8,7 @@ from robokin.jobs.conveyor import ALONG, BIN, GAP, LINKS, WINDOW, serve, spaced,
 from robokin.show import conveyor_player
 
 SPREADS = [0.0, 0.8]
+START = 120 * 0.15 / 0.25  # s: when the clock of the four arms starts
 
 
 @pytest.fixture(scope="module")
@@ -33,13 +34,13 @@ def test_objects_lie_on_the_belt_or_hang_on_a_tool(drawn):
         offsets = spaced(200, GAP, spread)
         held = 0
         for lane in lanes(named, k):
-            for t, place in zip(clock[::40], lane[::40], strict=True):
+            for t, place in zip(START + clock[::40], lane[::40], strict=True):
                 if np.isnan(place).all():
                     continue
                 where = ALONG[0] + 0.25 * t - offsets
                 belt = np.stack([0 * where + 0.6, where, 0 * where + 20 * mm], axis=-1)
                 on_belt = np.linalg.norm(belt - place, axis=-1).min() < 1e-9
-                n = int((t - clock[0]) / (clock[1] - clock[0]) + 0.5)
+                n = int((t - START) / (clock[1] - clock[0]) + 0.5)
                 on_tool = min(np.linalg.norm(tool[k][n] - place) for tool in tools) < 1e-9
                 assert on_belt or on_tool
                 held += on_tool and not on_belt
@@ -56,8 +57,8 @@ def test_every_object_on_the_drawn_belt_is_shown_and_none_jumps(drawn):
             meets[each.objects] = each.meets
         places = lanes(named, k)
         for n in (0, 500, 1200):
-            y = ALONG[0] + 0.25 * clock[n] - offsets
-            waiting = y[(y > -0.6) & (y < 3.5) & (clock[n] < meets)]
+            y = ALONG[0] + 0.25 * (START + clock[n]) - offsets
+            waiting = y[(y > -0.6) & (y < 3.6) & (START + clock[n] < meets)]
             seen = places[:, n][np.isfinite(places[:, n, 0])]
             for at in waiting:
                 assert abs(seen[:, 1] - at).min() < 1e-9
@@ -82,7 +83,7 @@ def test_player_shows_a_belt_of_ones_own(monkeypatch):
     monkeypatch.setattr("robokin.show.conveyor.animate", lambda *given, **named: (given, named))
     own, gap = [0.35, -0.3, 0.25], 0.17
     (_, clock, motions), named = conveyor_player(0.21, SPREADS, 2, bin_place=own, gap=gap, seed=82)
-    assert clock[0] == pytest.approx(0.6 * 200 * gap / 0.21)
+    start = 120 * gap / 0.21
     (brought,) = named["quantities"].values()
     walls = np.array([face for face in named["faces"] if np.ptp(np.array(face)[:, 2])])
     for k, spread in enumerate(SPREADS):
@@ -94,7 +95,7 @@ def test_player_shows_a_belt_of_ones_own(monkeypatch):
             assert np.linalg.norm(tool - own, axis=-1).min() < 1e-6
             box = walls.reshape(2, -1, 3)[i]
             assert box[:, :2].mean(axis=0) == pytest.approx(foot + own[:2])
-            wanted = [((clock[0] < each.backs) & (each.backs <= now)).sum() for now in clock]
+            wanted = [((start < each.backs) & (each.backs <= start + t)).sum() for t in clock]
             assert brought[1 - i][k].tolist() == wanted and wanted[-1]
 
 
@@ -103,6 +104,7 @@ def test_arm_in_the_title_has_the_first_curve(drawn):
     _, named = drawn
     assert named["names"] == ["arm 4", "arm 3", "arm 2", "arm 1"] and "arm 4" in named["title"]
     counts = {mark.name: mark.reading for mark in named["things"] if mark.reading}
+    assert counts.pop("missed").rows.shape == (2, 1201, 1)
     (brought,) = named["quantities"].values()
     for name, foot, each in zip(named["names"], named["bases"], brought, strict=True):
         assert foot == pytest.approx([0, int(name[-1]) - 1])
@@ -114,6 +116,45 @@ def test_title_asks_for_what_the_view_counts(monkeypatch):
     assert conveyor_player(0.2, SPREADS, 3) == "200 mm/s: how many objects does arm 3 bring?"
     alone = conveyor_player(0.2, SPREADS, 1, rules=True)
     assert alone == "200 mm/s: how many objects does one arm bring?"
+    faster = conveyor_player([0.1, 0.2], 0.5, 1)
+    assert faster == "Spread 0.5: how many objects does one arm miss?"
+    assert conveyor_player([0.1, 0.2], 1, 2) == "Spread 1: how many objects do 2 arms miss?"
+
+
+def test_missed_objects_are_counted_and_have_a_dot(monkeypatch):
+    """Each one gets its dot when it leaves the window."""
+    monkeypatch.setattr("robokin.show.conveyor.animate", lambda *given, **named: (given, named))
+    speeds = [0.08, 0.1, 0.13]
+    (_, clock, _), named = conveyor_player(speeds, 0.5, 1, rules=True)
+    assert clock[0] == 0 and clock[-1] == 6
+    assert named["slider"][0] == "belt speed, mm/s"
+    assert named["slider"][1] == pytest.approx([80, 100, 130])
+    assert list(named["quantities"]) == ["objects missed", "objects brought"]
+    told = next(mark for mark in named["things"] if mark.name == "missed")
+    offsets, missed = spaced(200, GAP, 0.5), named["quantities"]["objects missed"]
+    assert told.reading.rows[..., 0].tolist() == missed.reshape(6, -1).tolist()
+    for rule in (0, 1):
+        for k, v in enumerate(speeds):
+            (trips,) = serve(offsets, v, ALONG, ways_from(), first_come=rule == 1)
+            gone = (np.delete(offsets, trips.objects) + 0.8) / v - 120 * GAP / v
+            wanted = [((gone > 0) & (gone <= t)).sum() for t in clock]
+            assert missed[rule, k].tolist() == wanted
+            dots = np.array([lane[rule, k] for lane in named["points"]])
+            for n in range(0, 1201, 100):
+                left = 0.4 + v * (clock[n] - gone)
+                left = left[(left > 0.4) & (left <= 0.6)]
+                seen = dots[:, n][np.isfinite(dots[:, n, 0])]
+                assert sorted(seen[:, 1]) == pytest.approx(sorted(left))
+                assert np.allclose(seen[:, [0, 2]], [0.6, 20 * mm])
+    assert missed[..., -1].tolist() == [[0, 0, 1], [0, 1, 2]]
+
+
+def test_camera_does_not_depend_on_the_bin():
+    views = [
+        conveyor_player(0.21, SPREADS, 3, bin_place=[0.15, y, 0.25]).data["scene"]["view"]
+        for y in (-0.45, 0, 0.45)
+    ]
+    assert views[0] == views[1] == views[2]
 
 
 def test_labels_stand_where_nothing_moves(drawn):
@@ -121,7 +162,8 @@ def test_labels_stand_where_nothing_moves(drawn):
     (_, _, motions), named = drawn
     feet, arm = named["bases"][::-1], spbu_arm(*LINKS)
     marks = {mark.name: mark.at.rows[0, 0] for mark in named["things"]}
-    assert list(marks) == [f"{what} {k + 1}" for what in ("arm", "window") for k in range(4)]
+    arms, windows = ([f"{what} {k + 1}" for k in range(4)] for what in ("arm", "window"))
+    assert list(marks) == [*arms, "missed", *windows, "in", "out"]
     top = max(arm.frames(q).translation[..., 2].max() for q in motions)
     strips = [np.array(face) for face in named["faces"] if np.array(face)[:, 0].min() > 0.66]
     belt = max((np.array(face) for face in named["faces"]), key=lambda face: np.ptp(face[:, 1]))
@@ -134,6 +176,10 @@ def test_labels_stand_where_nothing_moves(drawn):
         assert sorted({*strip[:, 1]}) == pytest.approx(foot[1] + ALONG[[0, -1]])
         assert marks[f"window {k + 1}"][0] > strip[:, 0].max()
         assert marks[f"window {k + 1}"][1] == pytest.approx(foot[1])
+    # the ends of the row of windows, and the end of the belt
+    for name, strip in (("in", strips[0][:, 1].min()), ("out", strips[-1][:, 1].max())):
+        assert marks[name][1] == pytest.approx(strip) and marks[name][0] > strips[0][:, 0].max()
+    assert marks["missed"][1] > belt[:, 1].max()
 
 
 def test_travel_time_depends_on_the_bin():
@@ -147,10 +193,16 @@ def test_travel_time_depends_on_the_bin():
 @pytest.mark.parametrize(
     ("wrong", "says"),
     [
-        (dict(v=200), "v: wanted a speed from 0.02 to 0.5 m/s, got 200"),
-        (dict(spreads=[0.5]), "spreads: wanted 2 to 6 increasing numbers"),
-        (dict(spreads=[1, 0.5, 0]), "spreads: wanted 2 to 6 increasing numbers"),
-        (dict(spreads=[0, 1.5]), "spreads: wanted 2 to 6 increasing numbers"),
+        (dict(v=200), "v: wanted a number from 0.02 to 0.5 m/s, or 2 to 6 increasing ones, got"),
+        (dict(v=[0.1, 0.6], spread=0.5), "v: wanted a number from 0.02 to 0.5 m/s"),
+        (dict(v=[0.2, 0.1], spread=0.5), "v: wanted a number from 0.02 to 0.5 m/s"),
+        (dict(v=[], spread=0.5), "v: wanted a number from 0.02 to 0.5 m/s"),
+        (dict(spread=[0.5]), "spread: wanted a number from 0 to 1, or 2 to 6 increasing ones"),
+        (dict(spread=[1, 0.5, 0]), "spread: wanted a number from 0 to 1, or 2 to 6 increasing"),
+        (dict(spread=[0, 1.5]), "spread: wanted a number from 0 to 1"),
+        (dict(spread=[[0, 1]]), "spread: wanted a number from 0 to 1"),
+        (dict(spread=0.5), "v and spread: wanted one number and one list, got two numbers"),
+        (dict(v=[0.1, 0.2]), "v and spread: wanted one number and one list, got two lists"),
         (dict(arms=0), "arms: wanted"),
         (dict(rules="first come"), "rules: wanted True or False"),
         (dict(bin_place=[2, 0, 0]), "bin_place: wanted a place"),

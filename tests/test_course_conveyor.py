@@ -3,6 +3,7 @@ lines are named.
 """
 
 import math
+import re
 
 import numpy as np
 import pytest
@@ -12,6 +13,7 @@ from robokin.course.questions import filled
 
 LAB = book.lab("conveyor")
 CORNER, BIN = (0.35, -0.45), (0.15, -0.45)
+ENDS = "first_come_in", "first_come_out"
 Y = np.linspace(-0.4, 0.4, 161)
 
 
@@ -63,8 +65,8 @@ def line(own, place, arms, least=None):
         for y in (-0.45, 0.45)
     ]
     least = bound if least is None else least
-    counts = {"least": least, "missed": lost, "arms": arms, "first_come": late}
-    return {"bin": list(place)} | counts
+    counts = {"least": least, "missed": lost, "arms": arms}
+    return {"bin": list(place)} | counts | dict(zip(ENDS, late, strict=True))
 
 
 @pytest.mark.parametrize("who", [f"student {k}" for k in range(8)])
@@ -88,7 +90,7 @@ def test_mistakes_in_lines_are_named():
     own = variant("conveyor", "Ada")
     most, right = own["most"], line(own, CORNER, own["most"])
     assert check("conveyor.1", right, who="Ada").holds
-    near, far = right["first_come"]
+    near, far = (right[end] for end in ENDS)
     assert near > far
     load = 2 * ways(CORNER).min() * own["v"] / own["gap"]
     numbers = own["v"], own["gap"], own["spread"]
@@ -100,9 +102,9 @@ def test_mistakes_in_lines_are_named():
         "one stream of three": right | {"missed": first},
         "taken for missed": right | {"missed": 600 - right["missed"]},
         "another number of missed objects": right | {"missed": right["missed"] + 1},
-        "another number under first come": right | {"first_come": [near + 1, far]},
-        "first come, taken for missed": right | {"first_come": [600 - near, far]},
-        "the two ends swapped": right | {"first_come": [far, near]},
+        "another number under first come": right | {ENDS[0]: near + 1},
+        "first come, taken for missed": right | {ENDS[0]: 600 - near},
+        "the two ends swapped": right | {ENDS[0]: far, ENDS[1]: near},
         "more arms than allowed": line(own, CORNER, most + 1),
         "too few arms": line(own, BIN, 1),  # more than one arm would be busy all the time
         "no number of arms for a line": right | {"arms": 0},
@@ -114,8 +116,8 @@ def test_mistakes_in_lines_are_named():
         verdict = check("conveyor.1", answer, who="Ada")
         assert verdict.mistake == name and verdict.points < 1, (name, verdict)
     for changed in (
-        {"bin": [0.35]}, {"bin": "corner"}, {"least": "2"}, {"first_come": near},
-        {"first_come": [near, 0.5]}, {"first_come": [near, -1]},
+        {"bin": [0.35]}, {"bin": "corner"}, {"least": "2"}, {ENDS[0]: [near, far]},
+        {ENDS[1]: 0.5}, {ENDS[1]: -1},
     ):  # fmt: skip
         verdict = check("conveyor.1", right | changed, who="Ada")
         assert verdict.mistake == "another kind or shape"
@@ -147,11 +149,10 @@ def test_a_count_that_is_off_by_one_is_refused(who):
     own = variant("conveyor", who)
     right = line(own, CORNER, own["most"])
     assert check("conveyor.1", right, who=who).holds
-    near, far = right["first_come"]
+    near, far = (right[end] for end in ENDS)
     for more in (-1, 1, 9):
-        changes = [{"missed": right["missed"] + more}, {"first_come": [near + more, far]}]
-        changes.append({"first_come": [near, far + abs(more)]})
-        for change in changes:
+        changes = {"missed": right["missed"] + more, ENDS[0]: near + more, ENDS[1]: far + abs(more)}
+        for change in ({key: value} for key, value in changes.items()):
             assert not check("conveyor.1", right | change, who=who).holds, change
 
 
@@ -168,22 +169,20 @@ def test_mistakes_under_first_come_are_named():
         "first come, one stream of three": counts[1][0],
     }
     assert len({*wrong.values(), sum(counts[1])}) == 4
-    far = right["first_come"][1]
     for name, number in wrong.items():
-        answer = right | {"first_come": [number, far]}
-        verdict = check("conveyor.1", answer, who=who)
-        assert verdict.mistake == name and verdict.says[0].startswith("For y = −0.45 m: "), name
+        verdict = check("conveyor.1", right | {ENDS[0]: number}, who=who)
+        assert verdict.mistake == name and verdict.says[0].startswith("first_come_in: "), name
     # a bin that is not at an end has a count of its own
     own_bin = (0.35, -0.3)
     answer = line(own, own_bin, right["arms"])
     count = sum(
         missed(*numbers, seed, own_bin, right["arms"], first_come=True) for seed in own["seeds"]
     )
-    assert count not in answer["first_come"]
-    for k in (0, 1):
-        told = [count if i == k else n for i, n in enumerate(answer["first_come"])]
-        verdict = check("conveyor.1", answer | {"first_come": told}, who=who)
+    for end in ENDS:
+        assert count != answer[end]
+        verdict = check("conveyor.1", answer | {end: count}, who=who)
         assert verdict.mistake == "your own bin instead of one at the end"
+        assert verdict.says[0].startswith(f"{end}: ")
 
 
 @pytest.mark.parametrize("who", ["Ada L.", "Anna Petrova", "student 1"])
@@ -193,7 +192,7 @@ def test_every_correct_answer_shows_that_the_place_of_the_bin_decides(who):
     for place in (CORNER, (0.35, 0.0), (0.35, 0.45)):
         answer = line(own, place, own["most"])
         verdict = check("conveyor.1", answer, who=who)
-        near, far = answer["first_come"]
+        near, far = (answer[end] for end in ENDS)
         assert verdict.holds and near > 10 * (far + 1), (place, verdict)
         enough = "not enough" if answer["missed"] else "enough"
         assert f"the bound of {answer['least']} is {enough} for these" in verdict.says[1]
@@ -201,6 +200,44 @@ def test_every_correct_answer_shows_that_the_place_of_the_bin_decides(who):
             f"{near} objects with the bin where the objects come in, and {far} with"
             in (verdict.says[2])
         )
+
+
+def test_reply_says_why_the_rule_makes_no_difference():
+    who = "Student 7"
+    own = variant("conveyor", who)
+    for place in (CORNER, (0.35, 0.0), (0.35, 0.45)):
+        answer = line(own, place, own["most"])
+        assert [answer[end] for end in ENDS] == [0, 0]
+        verdict = check("conveyor.1", answer, who=who)
+        load = 2 * ways(CORNER).min() * own["v"] / own["gap"]
+        assert verdict.holds and load < 0.65 * own["most"], "the arms are idle a third of the time"
+        assert "the load is too small for the rule to matter" in verdict.says[2]
+        assert f"c v / g is only {load:.2f}, so the {own['most']} arms" in verdict.says[2]
+
+
+def test_answer_of_the_old_form_is_told_the_new_keys():
+    """Older copies of the lab asked for two numbers under one key."""
+    own = variant("conveyor", "Ada")
+    answer = line(own, CORNER, own["most"])
+    old = {key: n for key, n in answer.items() if key not in ENDS} | {"first_come": [20, 0]}
+    verdict = check("conveyor.1", old, who="Ada")
+    assert verdict.mistake == "another kind or shape" and "y = −0.45 m" in verdict.says[0]
+    assert all(f'"{end}"' in verdict.says[0] for end in ENDS)
+
+
+@pytest.mark.parametrize(("place", "arms"), [(CORNER, 1), (BIN, 1), (BIN, 2), (BIN, 3)])
+def test_too_few_arms_are_told_what_they_miss(place, arms):
+    own = variant("conveyor", "Ada")
+    numbers = own["v"], own["gap"], own["spread"]
+    lost = {seed: missed(*numbers, seed, place, arms) for seed in own["seeds"]}
+    verdict = check("conveyor.1", line(own, place, arms), who="Ada")
+    found = re.findall(r"miss(?:es)? (\d+) objects? of the stream with seed (\d+)\.", repr(verdict))
+    if not any(lost.values()):
+        assert not found
+    else:
+        [(count, seed)] = found
+        assert int(count) == lost[int(seed)] == max(lost.values())
+        assert ("one arm misses" if arms == 1 else f"{arms} arms miss ") in repr(verdict)
 
 
 def test_too_many_arms_at_a_good_bin_are_named():

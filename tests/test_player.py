@@ -440,6 +440,16 @@ def test_planar_arm_is_viewed_perpendicularly_to_its_plane():
     assert animate(IRB140, T, 0.1 * np.ones((2001, 6))).data["scene"]["flat"] is None
 
 
+def test_camera_stands_where_the_caller_puts_it(motions):
+    scene = animate(IRB140, T, motions[1], view=(-0.5, 0.25)).data["scene"]
+    assert scene["view"] == [-0.5, 0.25]
+    plain = animate(IRB140, T, motions[1]).data["scene"]
+    assert {**scene, "view": 0} == {**plain, "view": 0} and plain["view"] != scene["view"]
+    for wrong in (0.5, [0.1, 0.2, 0.3], [[0.1, 0.2]], "above", [np.nan, 0]):
+        with pytest.raises(ValueError, match="view: wanted"):
+            animate(IRB140, T, motions[1], view=wrong)
+
+
 def test_everything_drawn_is_in_view(blended, motions):
     """The few points in the data enclose all postures seen from any side, within a rounding error
     of 5 mm.

@@ -431,12 +431,8 @@ def arms_needed(v, spread, seed):
 
 def test_belt_table_shows_one_stream_and_other_streams_need_one_more_arm():
     words = flat("14", "belt-look")
-    assert "at all six speeds. At spread 0.5, it is one arm too few at three of these" in words
-    assert "speeds; at spread 1, it is one arm too few at five of them." in words
-    assert (
-        "All this is for one order of the gaps, `seed=8`; at spread 1, most other orders need "
-        'another arm at 200 and 300 mm/s ("More").' in words
-    )
+    assert "at all six speeds. At spread 0.5, it is one arm too few at three of them, and" in words
+    assert "at spread 1 at five. All this is for one order of the gaps" in words
     orders, fourth, more = numbers(
         r"The folded cell tries (\d+) orders at 200 and 300 mm/s: at spread 0.5, none needs "
         r"another arm; at spread 1, (\d+) and (\d+) do\.",
@@ -491,39 +487,23 @@ def test_gripping_time_needs_a_third_arm():
     assert (made["taken"](0.2, 0) > 0).sum() == 3
 
 
-def test_first_come_takes_more_if_the_window_is_shorter():
-    words = flat("14", "belt-look")
-    length, more, fewer = numbers(
-        r'With only its first (\d+) mm, "first come" takes (\d+) objects in section 2 instead of '
-        r"(\d+)\.",
-        words,
-    )
-    last = round(length / 5) + 1  # a place every 5 mm
-    counts = []
-    for places in (last, 161):
-        delays, free, count = np.linspace(0, 0.8, 161)[:places] / 0.15, 0.0, 0
-        for arrival in belt_stream(0.5, 8) / 0.15:
-            in_time = np.flatnonzero(arrival + delays >= free + WAYS[:places] - 1e-9)
-            if len(in_time):
-                free = arrival + delays[in_time[0]] + WAYS[in_time[0]]
-                count += 1
-        counts.append(count)
-    assert counts == [more, fewer]
-    assert f"first 150 mm of the window: {more:g} of 200" in shown("14", "belt-work")
-
-
 def test_belt_player_shows_the_streams_of_the_table(monkeypatch):
     spreads = [0, 0.2, 0.4, 0.6, 0.8, 1]
     assert "Play these six seconds from the middle of a stream of 200 objects." in flat(
         "14", "title"
     )
-    assert "The belt runs at 200 mm/s. The clock starts at 90 s" in flat("14", "able")
-    assert f"conveyor_player(v=0.2, spreads={spreads})" in cells("14")["opening"]
+    (come,) = numbers(
+        r"In every view, the clock starts when about the (\d+)th object comes \*in\*\.",
+        flat("14", "able"),
+    )
+    assert f"conveyor_player(v=0.2, spread={spreads})" in cells("14")["opening"]
     # `animate` returns its arguments
     monkeypatch.setattr("robokin.show.conveyor.animate", lambda *given, **named: (given, named))
-    (_, clock, _), named = conveyor_player(v=0.2, spreads=spreads)
-    assert clock[0] == pytest.approx(90) and clock[-1] - clock[0] == pytest.approx(6)
-    assert clock[-1] < 150  # 30 m of objects at 0.2 m/s
+    (_, clock, _), named = conveyor_player(v=0.2, spread=spreads)
+    assert clock[0] == 0 and clock[-1] == 6
+    start = 120 * 0.15 / 0.2
+    assert start + 6 < 150  # 30 m of objects at 0.2 m/s
+    assert all(abs(sum(belt_stream(x, 8) <= 0.2 * start) - come) <= 3 for x in spreads)
     (brought,), busy = named["quantities"].values(), []
     counts = {thing.name: thing.reading for thing in named["things"] if thing.reading}
     for k, spread in enumerate(spreads):
@@ -531,7 +511,7 @@ def test_belt_player_shows_the_streams_of_the_table(monkeypatch):
         for arm in range(3):
             # the second and third arms are each 1 m farther along the belt than the arm before them
             backs, left = one_arm(np.array(left) + (arm > 0) * 5.0, 0.2)
-            wanted = [sum(clock[0] < back <= now for back in backs) for now in clock]
+            wanted = [sum(start < back <= start + now for back in backs) for now in clock]
             assert brought[named["names"].index(f"arm {arm + 1}")][k].tolist() == wanted
             assert counts[f"arm {arm + 1}"].rows[k, :, 0].tolist() == wanted
         assert not left  # three arms are enough, as the table says
@@ -551,20 +531,46 @@ def given_to_animate(monkeypatch, cell, call):
 
 def test_one_arm_brings_as_many_objects_by_each_rule_as_stated(monkeypatch):
     assert (
-        'At each spread, "back soonest" brings four or five in these six seconds, and "first come" '
-        "brings two." in flat("14", "belt-one-arm")
+        '"First come" meets them near the far end, and brings two at each spread; "back soonest" '
+        "brings four or five." in flat("14", "belt-player-look")
     )
     call = "conveyor_player(0.15, [0, 0.5, 1], arms=1, rules=True)"
     (_, clock, (q,)), named = given_to_animate(monkeypatch, "belt-player", call)
     assert named["switch"][1] == ("back soonest", "first come")
-    (brought,) = named["quantities"].values()
+    brought = named["quantities"]["objects brought"]
     assert brought.shape == (2, 3, len(clock)) == q.shape[:-1]
     for k, spread in enumerate([0, 0.5, 1]):
         arrivals = belt_stream(spread, 8) / 0.15
         for rule, backs in enumerate((one_arm(arrivals, 0.15)[0], in_order(arrivals, 0.15)[0])):
-            wanted = [sum(clock[0] < back <= now for back in backs) for now in clock]
+            start = 120 * 0.15 / 0.15
+            wanted = [sum(start < back <= start + now for back in backs) for now in clock]
             assert brought[rule, k].tolist() == wanted
             assert wanted[-1] in ((4, 5), (2,))[rule]
+
+
+def test_each_rule_misses_none_up_to_the_stated_belt_speed(monkeypatch):
+    """In the six seconds of the view, and `first come` also in the whole stream."""
+    first, soonest, whole, lost, at = numbers(
+        r'In these six seconds, "first come" misses none up to (\d+) mm/s, and "back soonest" none '
+        r'up to (\d+)\. Of all 200, too, "first come" misses none up to (\d+), and (\d+) at '
+        r"(\d+)\.",
+        flat("14", "belt-speed-look"),
+    )
+    speeds = [0.08, 0.09, 0.1, 0.11, 0.12, 0.13]
+    call = f"conveyor_player(v={speeds}, spread=0.5, arms=1, rules=True)"
+    (_, clock, _), named = given_to_animate(monkeypatch, "belt-speed-player", call)
+    missed, all_missed = named["quantities"]["objects missed"], []
+    for rule, most in ((one_arm, soonest), (in_order, first)):
+        for k, v in enumerate(speeds):
+            arrivals, start = belt_stream(0.5, 8) / v, 120 * 0.15 / v
+            left = np.array(rule(arrivals, v)[1]) + 0.8 / v  # when they leave the window
+            all_missed.append(len(left))
+            shown_now = missed[int(rule is in_order), k]
+            assert shown_now[-1] == ((left > start) & (left <= start + 6)).sum()
+            assert (shown_now[-1] == 0) == (1000 * v <= most + 1e-6)
+    of_all = dict(zip([80, 90, 100, 110, 120, 130], all_missed[6:], strict=True))
+    assert whole == first == max(v for v, n in of_all.items() if n == 0) and of_all[at] == lost
+    assert all_missed[speeds.index(soonest / 1000)] > 0, "six seconds are too short for this rule"
 
 
 def in_order(arrivals, v):
@@ -584,14 +590,16 @@ def in_order(arrivals, v):
 
 def test_first_come_is_never_worse_for_one_arm_that_must_miss_none():
     words = flat("14", "belt-curve-look")
-    streams, more = numbers(
-        r'"first come" \(dashed\) was never worse in these (\d+) streams \(three random orders for '
-        r"each spread\), and it was up to (\d+) mm/s faster",
-        words,
+    (more,) = numbers(
+        r'"first come" \(dashed\) was never worse here, and up to (\d+) mm/s faster', words
     )
     made = quietly("14", "belt-spread")
     soonest, first = made["most"], made["most_first"]
-    assert soonest.size == streams and (first >= soonest).all() and (first - soonest).max() == more
+    assert (
+        soonest.size == first.size == 15
+        and (first >= soonest).all()
+        and (first - soonest).max() == more
+    )
     for rule, limits in ((one_arm, soonest), (in_order, first)):
         for spread, row in zip((0, 0.25, 0.5, 0.75, 1), limits, strict=True):
             for seed, most in zip((8, 9, 10), row, strict=True):
@@ -603,7 +611,7 @@ def test_first_come_is_never_worse_for_one_arm_that_must_miss_none():
 def test_first_come_misses_far_more_a_little_above_its_limit():
     load, least, most, few, many = numbers(
         r"at 100 mm/s and spread 0\.5, where \$c\\,v/g\$ is only (\S+), it misses (\d+) to (\d+) "
-        r'objects \(last line\), and "back soonest" (\d+) to (\d+)\.',
+        r'objects, and "back soonest" (\d+) to (\d+)\.',
         flat("14", "belt-curve-look"),
     )
     assert load == pytest.approx(2 * WAYS.min() * 0.1 / 0.15, abs=0.005) and load < 1
@@ -614,13 +622,13 @@ def test_first_come_misses_far_more_a_little_above_its_limit():
     assert [min(first), max(first)] == [least, most]
     assert [min(soonest), max(soonest)] == [few, many]
     line = shown("14", "belt-spread").splitlines()[-1]
-    assert [int(n) for n in line.split()] == soonest + first
+    assert line.endswith(f": back soonest {soonest}, first come {first}")
 
 
 def test_twice_the_gap_does_not_double_the_speed_for_uneven_gaps():
     low, high, low_long, high_long = numbers(
-        r"`gap = 300 \* mm` in section 3: the speed at spread 0 doubles, but at spread 1 it rises "
-        r"only from (\d+)–(\d+) to (\d+)–(\d+) mm/s",
+        r"`gap = 300 \* mm` in section 3: the speed doubles at spread 0, but rises only from "
+        r"(\d+)–(\d+) to (\d+)–(\d+) mm/s at spread 1",
         flat("14", "deeper"),
     )
     assert "gap = 150 * mm  # try 300 * mm" in cells("14")["belt-spread"]
@@ -674,31 +682,38 @@ def test_only_first_come_gives_the_fourth_arm_work(monkeypatch):
 
 def test_rules_are_equally_good_with_the_bin_at_the_other_end():
     """A late arm then meets its object nearer to the bin."""
-    (both,) = numbers(
-        r"With the bin at the other end, a late arm's trip gets shorter, and both rules take (\d+) "
-        r"objects\.",
-        flat("14", "belt-row"),
+    assert (
+        "Both rules then take equally many objects at all five speeds, and as many as the better "
+        "rule at the other end, to within two (last lines)." in flat("14", "belt-row")
+    )
+    assert (
+        "in section 2 either rule took as many objects as the better rule at the other end, to "
+        "within two." in flat("14", "short")
     )
     # the window is mirrored instead of the bin: the places are then passed from far to near
-    ways, delays = WAYS[::-1], np.linspace(0, 0.8, 161) / 0.15
-    taken = []
-    for in_order_too in (False, True):
-        left, free, count = list(belt_stream(0.5, 8) / 0.15), 0.0, 0
-        while left:
-            at = np.array(left)[:, None] + delays
-            in_time = at >= free + ways - 1e-9
-            some = in_time.any(axis=-1)
-            if not some.any():
-                break
-            place = in_time.argmax(axis=-1)
-            back = np.where(some, at[range(len(left)), place] + ways[place], np.inf)
-            pick = int(some.argmax() if in_order_too else back.argmin())
-            free, count = back[pick], count + 1
-            del left[pick]
-        taken.append(count)
-    assert taken == [both, both]
-    line = shown("14", "belt-work").splitlines()[-1]
-    assert line == f"bin at the other end, back soonest and first come: {both:g} {both:g}"
+    printed = shown("14", "belt-work").splitlines()[-5:]
+    for v, line in zip((0.1, 0.15, 0.2, 0.25, 0.3), printed, strict=True):
+        arrivals = belt_stream(0.5, 8) / v
+        near = [200 - len(rule(arrivals, v)[1]) for rule in (one_arm, in_order)]
+        far = []
+        ways, delays = WAYS[::-1], np.linspace(0, 0.8, 161) / v
+        for in_order_too in (False, True):
+            left, free, count = list(arrivals), 0.0, 0
+            while left:
+                at = np.array(left)[:, None] + delays
+                in_time = at >= free + ways - 1e-9
+                some = in_time.any(axis=-1)
+                if not some.any():
+                    break
+                place = in_time.argmax(axis=-1)
+                back = np.where(some, at[range(len(left)), place] + ways[place], np.inf)
+                pick = int(some.argmax() if in_order_too else back.argmin())
+                free, count = back[pick], count + 1
+                del left[pick]
+            far.append(count)
+        assert far[0] == far[1] and abs(far[0] - max(near)) <= 2
+        told, *counts = numbers(r"(\d+) mm/s: +(\d+) +(\d+); +(\d+) +(\d+)$", line)
+        assert told == pytest.approx(1000 * v) and counts == near + far
 
 
 def test_changing_only_alpha_to_plus_90_mirrors_the_arm_in_the_floor():

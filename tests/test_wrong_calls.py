@@ -329,6 +329,7 @@ CALLS = {
             watch="v",
             joints=[1, 3],
             quantities={"distance, mm": TIMES},
+            view=(-0.5, 0.4),
         ),
     ),
     "animate (controls)": (
@@ -397,7 +398,7 @@ CALLS = {
         figures.conveyor_player,
         dict(
             v=0.2,
-            spreads=np.array([0.0, 0.5, 1.0]),
+            spread=np.array([0.0, 0.5, 1.0]),
             arms=3,
             rules=False,
             bin_place=np.array([0.15, -0.45, 0.25]),

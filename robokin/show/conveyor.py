@@ -6,37 +6,38 @@ from itertools import product
 import numpy as np
 
 from .._arrays import ArrayLike, Floats
-from .._validate import floats, length, number, short, whole
+from .._validate import floats, length, short, whole
 from ..arms import spbu_arm
 from ..jobs.conveyor import ALONG, BIN, GAP, LINKS, WINDOW, Trips, serve, spaced, ways_from
 from ..jobs.visit_collect import principal_postures
 from ..motion import ptp, quintic
-from ..units import mm
+from ..units import deg, mm
 from .checks import yes
 from .player import Player, animate
 from .things import Mark
 
-OBJECTS = 200  # in the stream
+OBJECTS, BEGIN = 200, 120  # in the stream; about so many have come in when the clock starts
 PITCH = 1.0  # m, between neighbouring arms
 SHOWN = 6.0  # seconds of the motion
 SAMPLES = 1201
 RADIUS = 22 * mm  # the radius of an object
 HANGS = 30 * mm  # the distance from a tool down to the object that it carries
-BEFORE, AFTER = 200 * mm, 100 * mm  # how far the drawn belt extends beyond the windows
+BEYOND = 200 * mm  # how far the drawn belt extends beyond the windows
 SLOWEST, FASTEST = 0.02, 0.5  # m/s, of the belt
 NARROW, WIDE = 0.1, 0.5  # m, the mean gap; a gap of at most twice WIDE fits on the drawn belt
-BUSIEST = 6  # maximum number of arms and of spreads
+BUSIEST = 6  # maximum number of arms, and of values of the slider
 RULES = ("back soonest", "first come")
 EDGE = 60 * mm  # half the width of the belt
 STRIP = 40 * mm  # the width of the strip beside a window, and its distance from the belt
 SPECK = 1 * mm  # the radius of the ball at a label, which is hardly visible
 OVER = 600 * mm  # the height of a count; no part of an arm at work is higher than 500 mm
+VIEW = -30 * deg, 22 * deg  # of the camera: the same for every bin, so that pictures compare
 SQUARE = np.array([[-1, -1], [1, -1], [1, 1], [-1, 1]])
 
 
 def conveyor_player(
-    v: float = 0.2,
-    spreads: ArrayLike = (0.0, 0.5, 1.0),
+    v: ArrayLike = 0.2,
+    spread: ArrayLike = (0.0, 0.5, 1.0),
     arms: int = 3,
     *,
     rules: bool = False,
@@ -49,78 +50,104 @@ def conveyor_player(
     bin soonest.
 
     v          speed of the belt, 0.02 to 0.5 m/s
-    spreads    the values of the slider, two to six increasing fractions from 0 to 1: see `spaced`
+    spread     a fraction from 0 to 1: see `spaced`. Either `v` or `spread` is a list of two to six
+               increasing numbers, the values of the slider; the other one is a number
     arms       number of arms, one to six
     rules      whether the reader can choose the rule "first come" instead: see `serve`
     bin_place  the place (3,) of the bin, in m: see `ways_from`
     gap, seed  mean gap between two objects, 0.1 to 0.5 m, and the order of the gaps: see `spaced`
 
-    The title asks about the last arm, so its curve is the first one, with the strongest line. The
-    numbers above the arms and the curves count the objects brought to the bins since the start
-    of the six seconds. A strip along the belt marks each window. Raises ValueError if a number is
-    outside these ranges.
+    The clock starts when about the 120th object reaches the first window. Since then, the numbers
+    above the arms and the curves count the objects brought to the bins, and "missed" those that
+    have left the last window; such an object has a dot. A strip along the belt marks each window.
+    For several arms, the title asks about the last one if the slider changes the spread, so its
+    curve is the first one, with the strongest line. Raises ValueError if a number is outside these
+    ranges.
     """
-    speed, values, count, mean = _checked(v, spreads, arms, gap)
+    speeds, shares = _belts(v, spread)
+    count, mean = whole(arms, "arms", 1, BUSIEST), length(gap, "gap")
+    if not NARROW <= mean <= WIDE:
+        raise ValueError(f"gap: wanted {NARROW} to {WIDE} m, got {short(gap)}")
     ways, place = ways_from(bin_place), floats(bin_place, "bin_place")
     stand = principal_postures(*LINKS, place)
     words = RULES if yes(rules, "rules") else RULES[:1]
-    lead = (len(words), len(values)) if len(words) > 1 else (len(values),)
-    clock = 0.6 * OBJECTS * mean / speed + np.linspace(0, SHOWN, SAMPLES)
+    values = speeds.size * shares.size
+    lead = (len(words), values) if len(words) > 1 else (values,)
+    clock = np.linspace(0, SHOWN, SAMPLES)
     machine = spbu_arm(*LINKS)
     feet = np.stack([np.zeros(count), PITCH * np.arange(count)], axis=-1)
-    motions, places, brought = [], [], []
-    for word, spread in product(words, values):
-        stream = spaced(OBJECTS, mean, float(spread), seed=seed)
+    end = float(ALONG[-1] + feet[-1, 1])  # of the last window
+    motions, places, passed, counts = [], [], [], []
+    for word, speed, share in product(words, speeds.flat, shares.flat):
+        stream = spaced(OBJECTS, mean, float(share), seed=seed)
         first = word == RULES[1]
         trips = serve(stream, speed, ALONG, ways, arms=count, pitch=PITCH, first_come=first)
-        q = [_motion(each, clock, stand) for each in trips]
+        times = BEGIN * mean / speed + clock
+        q = [_motion(each, times, stand) for each in trips]
         tools = [machine.fk(one).translation for one in q]
         held = [tool + [*foot, -HANGS] for tool, foot in zip(tools, feet, strict=True)]
+        objects = _objects(stream, speed, trips, held, times, end)
+        gone = np.delete(np.arange(OBJECTS), np.concatenate([each.objects for each in trips]))
+        out = (stream[gone] + end - ALONG[0]) / speed  # when they leave the last window
+        lost = np.where(times[:, None] > out[:, None, None], objects[gone], np.nan)
         motions.append(q)
-        places.append(_objects(stream, speed, trips, held, clock, (count - 1) * PITCH))
-        done = [(clock[:, None] >= each.backs).sum(axis=-1) for each in trips]
-        brought.append([each - each[0] for each in done])
-    numbers = [one.reshape(*lead, SAMPLES) for one in np.stack(brought, axis=1)]
+        places.append(_seen(objects))
+        passed.append(_seen(lost))
+        done = [(times[:, None] >= at).sum(axis=-1) for at in (*(k.backs for k in trips), out)]
+        counts.append([each - each[0] for each in done])
+    *brought, missed = (one.reshape(*lead, SAMPLES) for one in np.stack(counts, axis=1))
     moves = [one.reshape(*lead, SAMPLES, -1) for one in np.stack(motions, axis=1)]
+    balls, dots = (
+        [lane.reshape(*lead, SAMPLES, 3) for lane in _lanes(rows)] for rows in (places, passed)
+    )
+    one_arm = {"objects brought": brought[0], "objects missed": missed}
+    if speeds.ndim:
+        one_arm = dict(reversed(one_arm.items()))  # the first one has the large panel
     return animate(  # the last arm first: the first arm has the strongest curve
         [machine] * count,
         clock,
         moves[::-1],
         names=[f"arm {k}" for k in range(count, 0, -1)],
-        slider=("spread", values),
+        slider=("belt speed, mm/s", speeds / mm) if speeds.ndim else ("spread", shares),
         switch=("rule", words) if len(words) > 1 else None,
         bases=feet[::-1] if count > 1 else None,
-        circles=[(lane.reshape(*lead, SAMPLES, 3), RADIUS) for lane in _lanes(places)],
+        circles=[(lane, RADIUS) for lane in balls],
+        points=dots,
         faces=_belt(feet) + _boxes(feet, place),
-        things=_labels(feet, numbers),
-        quantities={"objects brought": numbers[::-1] if count > 1 else numbers[0]},
-        title=_title(speed, count),
+        things=_labels(feet, brought, missed),
+        joints=[],
+        quantities={"objects brought": brought[::-1]} if count > 1 else one_arm,
+        title=_title(speeds, shares, count),
+        view=VIEW,
     )
 
 
 # --- Private --------------------------------------------------------------------------------------
 
 
-def _checked(
-    v: float, spreads: ArrayLike, arms: int, gap: float
-) -> tuple[float, Floats, int, float]:
-    """Return the arguments of `conveyor_player`."""
-    speed, values = number(v, "v"), floats(spreads, "spreads")
-    if not SLOWEST <= speed <= FASTEST:
-        raise ValueError(f"v: wanted a speed from {SLOWEST} to {FASTEST} m/s, got {short(v)}")
-    inside = values.ndim == 1 and 2 <= len(values) <= BUSIEST
-    if not inside or not 0 <= values[0] < values[-1] <= 1 or (np.diff(values) <= 0).any():
-        wanted = f"wanted 2 to {BUSIEST} increasing numbers from 0 to 1"
-        raise ValueError(f"spreads: {wanted}, got {short(spreads)}")
-    mean = length(gap, "gap")
-    if not NARROW <= mean <= WIDE:
-        raise ValueError(f"gap: wanted {NARROW} to {WIDE} m, got {short(gap)}")
-    return speed, values, whole(arms, "arms", 1, BUSIEST), mean
+def _belts(v: ArrayLike, spread: ArrayLike) -> tuple[Floats, Floats]:
+    """Return the speeds and the spreads; either of them is a list."""
+    speeds, shares = floats(v, "v"), floats(spread, "spread")
+    for name, values, low, high, unit in (
+        ("v", speeds, SLOWEST, FASTEST, " m/s"),
+        ("spread", shares, 0, 1, ""),
+    ):
+        several = values.ndim == 1 and 2 <= len(values) <= BUSIEST and (np.diff(values) > 0).all()
+        if values.ndim and not several or values.min() < low or values.max() > high:
+            wanted = f"a number from {low} to {high}{unit}, or 2 to {BUSIEST} increasing ones"
+            raise ValueError(f"{name}: wanted {wanted}, got {short(values)}")
+    if speeds.ndim == shares.ndim:
+        both = "two lists" if speeds.ndim else "two numbers"
+        raise ValueError(f"v and spread: wanted one number and one list, got {both}")
+    return speeds, shares
 
 
-def _title(speed: float, count: int) -> str:
+def _title(speeds: Floats, shares: Floats, count: int) -> str:
+    if speeds.ndim:
+        who = f"do {count} arms" if count > 1 else "does one arm"
+        return f"Spread {shares:g}: how many objects {who} miss?"
     who = f"arm {count}" if count > 1 else "one arm"
-    return f"{speed / mm:.0f} mm/s: how many objects does {who} bring?"
+    return f"{speeds / mm:.0f} mm/s: how many objects does {who} bring?"
 
 
 def _motion(trips: Trips, times: Floats, at_bin: Floats) -> Floats:
@@ -141,21 +168,26 @@ def _objects(
     trips: Sequence[Trips],
     held: Sequence[Floats],
     times: Floats,
-    more: float,
+    end: float,
 ) -> Floats:
-    """Return the places (objects, samples, 3) of the visible objects, which move with the belt and
-    then with a tool. A place is NaN while the object is in a bin or beyond the drawn belt, which is
-    `more` metres longer than for one arm.
+    """Return the places (objects, samples, 3) of the objects, which move with the belt and then
+    with a tool. A place is NaN while the object is in a bin or beyond the drawn belt; the last
+    window ends at `end`.
     """
     y = ALONG[0] + v * times - stream[:, None]
     place = np.stack([0 * y + WINDOW[0, 0], y, 0 * y + WINDOW[0, 2] - HANGS], axis=-1)
-    place[(y < ALONG[0] - BEFORE) | (y > ALONG[-1] + more + AFTER)] = np.nan
+    place[(y < ALONG[0] - BEYOND) | (y > end + BEYOND)] = np.nan
     for each, tool in zip(trips, held, strict=True):
         for i, meets, backs in zip(each.objects, each.meets, each.backs, strict=True):
             place[i, times > meets] = tool[times > meets]
             place[i, times >= backs] = np.nan
-    seen: Floats = place[np.isfinite(place).any(axis=(1, 2))]
-    return seen
+    return place
+
+
+def _seen(places: Floats) -> Floats:
+    """Return the objects that are visible at some time."""
+    found: Floats = places[np.isfinite(places).any(axis=(1, 2))]
+    return found
 
 
 def _lanes(places: Sequence[Floats]) -> Floats:
@@ -175,8 +207,7 @@ def _lanes(places: Sequence[Floats]) -> Floats:
                 lanes.append(np.full_like(one, np.nan))
             lanes[k][there] = one[there]
         rows.append(lanes)
-    empty = np.full_like(places[0][0], np.nan)
-    most = max(map(len, rows))
+    empty, most = np.full((SAMPLES, 3), np.nan), max(map(len, rows))
     return np.array([[row[k] if k < len(row) else empty for row in rows] for k in range(most)])
 
 
@@ -184,7 +215,7 @@ def _belt(feet: Floats) -> list[list[list[float]]]:
     """Return the polygons of the belt, and of a strip in front of it for each window."""
     ends, middle = ALONG[[0, -1]] + feet[:, 1:], WINDOW[0, 0]
     begin = middle + EDGE + STRIP
-    belt = middle - EDGE, middle + EDGE, ends.min() - BEFORE, ends.max() + AFTER
+    belt = middle - EDGE, middle + EDGE, ends.min() - BEYOND, ends.max() + BEYOND
     strips = [(begin, begin + STRIP, low, high) for low, high in ends]
     return [
         [[left if x < 0 else right, low if y < 0 else high, 0] for x, y in SQUARE]
@@ -192,17 +223,23 @@ def _belt(feet: Floats) -> list[list[list[float]]]:
     ]
 
 
-def _labels(feet: Floats, numbers: Sequence[Floats]) -> list[Mark]:
-    """Return the counts, each above its arm, and the names of the windows, each in front of its
-    strip. Nothing moves there, so that the labels stay where they are.
+def _labels(feet: Floats, brought: Sequence[Floats], missed: Floats) -> list[Mark]:
+    """Return the counts, each above its arm, the count of the missed objects beyond the belt, and
+    the names of the windows and of their ends, in front of the strips. Nothing moves there, so that
+    the labels stay where they are.
     """
-    front = WINDOW[0, 0] + EDGE + 5 * STRIP
+    begin, end = ALONG[[0, -1]] + feet[[0, -1], 1]
     counts = [
         Mark([*foot, OVER], f"arm {k + 1}", SPECK, reading)
-        for k, (foot, reading) in enumerate(zip(feet, numbers, strict=True))
+        for k, (foot, reading) in enumerate(zip(feet, brought, strict=True))
     ]
-    windows = [Mark([front, y, 0], f"window {k + 1}", SPECK) for k, (_, y) in enumerate(feet)]
-    return counts + windows
+    lost = Mark([WINDOW[0, 0], end + BEYOND + 2 * STRIP, 0], "missed", SPECK, missed)
+    front = WINDOW[0, 0] + EDGE
+    names = [f"window {k + 1}" for k in range(len(feet))] if len(feet) > 1 else ["window"]
+    places = [(front + 5 * STRIP, y) for y in feet[:, 1]]
+    places += [(front + 2.5 * STRIP, y) for y in (begin, end)]
+    words = zip([*names, "in", "out"], places, strict=True)
+    return [*counts, lost, *(Mark([*place, 0], word, SPECK) for word, place in words)]
 
 
 def _boxes(feet: Floats, place: Floats) -> list[list[list[float]]]:

@@ -13,7 +13,7 @@ from typing import Any
 import numpy as np
 
 from .._arrays import ArrayLike, Floats
-from .._validate import instance
+from .._validate import floats, instance, short
 from ..arms.arm import Arm
 from ..motion.recording import Recording
 from ..transform import Transform
@@ -56,6 +56,7 @@ def animate(
     watch: str | None = None,
     joints: Iterable[int] | None = None,
     quantities: Mapping[str, Any] = NO_READINGS,
+    view: ArrayLike | None = None,
 ) -> "Player":
     """Return a `Player` of the motion q (samples, n) at the times t (samples,). It displays itself
     at the end of a cell.
@@ -94,6 +95,8 @@ def animate(
     quantities  numbers with a panel of their own, such as a distance: a dict that maps "name, unit"
              to an array (samples,) or an array with the leading axes of q; for several arms, to a
              list with one array for each
+    view     the azimuth and elevation of the camera in radians. None: the direction from which the
+             path of the tool appears largest
 
     Points, centres of circles and targets may move. The place of a point or centre then has the
     shape (samples, 3) or, with the leading axes of q, (..., samples, 3). If the place depends only
@@ -114,11 +117,14 @@ def animate(
     looked = arguments.watch(watch, joints, list(numbers), [track.arm for track in tracks])
     for thing in drawn:
         thing.fit(lead, count)
+    camera = None if view is None else floats(view, "view", 2)
+    if camera is not None and camera.ndim != 1:
+        raise ValueError(f"view: wanted an azimuth and an elevation in radians, got {short(view)}")
     title = " and ".join(dict.fromkeys(names)) if title is None else plain(title, "title")
     solid = yes(floor, "floor")
     stands = arguments.bases(bases, len(tracks))
     data = page_data(
-        names, tracks, drawn, numbers, looked, sliding, switching, title, solid, stands
+        names, tracks, drawn, numbers, looked, sliding, switching, title, solid, stands, camera
     )
     motions = [(track.arm, track.q[0]) for track in tracks]
     still = still_picture(names, motions, drawn, data["scene"], title, data["alt"], stands)
@@ -160,6 +166,7 @@ def page_data(
     title: str,
     solid: bool,
     bases: Floats | None,
+    view: Floats | None,
 ) -> Page:
     """Return the data of the page."""
     arms, t = [track.arm for track in tracks], tracks[0].t
@@ -195,6 +202,8 @@ def page_data(
     ]
     postures = [track.q[:, kept] for track in tracks]
     scene = scene_data(arms, postures, things, size, kept, solid=solid, bases=bases)
+    if view is not None:
+        scene["view"] = rounded(view, 4)
     summary, alt = findings.summary_and_alt(drawn, t, targets, unit, slider, switch)
     return {
         "title": title,

@@ -17,7 +17,7 @@ from .shared import COUNT as OBJECTS
 from .shared import Floats, taken
 
 COUNT = 6
-KEYS = ("bin", "least", "missed", "arms", "first_come")
+KEYS = ("bin", "least", "missed", "arms", "first_come_in", "first_come_out")
 LOW, HIGH = np.array([[150, -450], [350, 450]]) * mm  # where the bin may stand: x and y
 HEIGHT = 250 * mm
 CORNER = (350 * mm, -450 * mm)  # the least time of one object
@@ -74,9 +74,12 @@ def given(who: Any) -> Numbers:
 
 
 def form(answer: Any, numbers: Any) -> Line:
+    if isinstance(answer, Mapping) and "first_come" in answer and KEYS[-1] not in answer:
+        wanted = '"first_come_in" and "first_come_out", whole numbers for the bin at y = −0.45 m'
+        raise ValueError(f'wanted {wanted} and at y = 0.45 m, got "first_come"')
     if not isinstance(answer, Mapping) or not set(KEYS) <= set(answer):
-        names = '"least", "missed" and "arms", and two for "first_come"'
-        wanted = f'wanted {{"bin": [x, y] in m}}, whole numbers for {names}'
+        names = ", ".join(f'"{key}"' for key in KEYS[1:])
+        wanted = f'wanted "bin": [x, y] in m, and a whole number for each of {names}'
         raise ValueError(f"{wanted}, got {in_words(answer)}")
     try:
         place = floats(answer["bin"])
@@ -85,7 +88,7 @@ def form(answer: Any, numbers: Any) -> Line:
     if place.shape != (2,) or not np.isfinite(place).all():
         raise ValueError(f"bin: wanted x and y in m, got {in_words(answer['bin'])}")
     counts = []
-    for key in KEYS[1:-1]:
+    for key in KEYS[1:]:
         try:
             value = one_number(answer[key])
         except (TypeError, ValueError):
@@ -93,15 +96,8 @@ def form(answer: Any, numbers: Any) -> Line:
         if not 0 <= value <= 1000 or value % 1:
             raise ValueError(f"{key}: wanted a whole number, got {in_words(answer[key])}")
         counts.append(int(value))
-    least, lost, arms = counts
-    try:
-        late = floats(answer["first_come"])
-    except (TypeError, ValueError):
-        late = np.empty(0)
-    if late.shape != (2,) or not ((late >= 0) & (late <= 1000) & (late % 1 == 0)).all():
-        wanted = "first_come: wanted two whole numbers, for y = −0.45 m and for y = 0.45 m"
-        raise ValueError(f"{wanted}, got {in_words(answer['first_come'])}")
-    return (float(place[0]), float(place[1])), least, lost, arms, (int(late[0]), int(late[1]))
+    least, lost, arms, near, far = counts
+    return (float(place[0]), float(place[1])), least, lost, arms, (near, far)
 
 
 def faults(line: Line, numbers: Any) -> list[Fault]:
@@ -128,10 +124,14 @@ def faults(line: Line, numbers: Any) -> list[Fault]:
         says = f"Wanted 1 to {MOST_ARMS} arms, got {arms}."
         found.append(("no number of arms for a line", says))
     else:
-        if not none_missed(numbers, place, arms):
+        lost = missed(numbers, place, arms)
+        if any(lost):
             name = "the bound is not enough" if arms == bound["the bound"] else "too few arms"
             many = "one arm" if arms == 1 else f"{arms} arms"
-            found.append((name, f"With {many} and this bin, some objects of a stream are missed."))
+            k = lost.index(max(lost))
+            some = f"{lost[k]} object{'s' * (lost[k] > 1)} of the stream with seed"
+            says = f"With this bin, {many} miss{'es' * (arms == 1)} {some} {numbers['seeds'][k]}."
+            found.append((name, says))
         if fault := first_come_slips(numbers, place, served, arms, told_first):
             found.append(fault)
     if arms > most:
@@ -175,7 +175,7 @@ def first_come_slips(
         ),
     ]
     name, says = slip(told[k], slips, "another number under first come")
-    return name, f"For y = {'−+'[k]}0.45 m: {says}"
+    return name, f"{KEYS[k - 2]}: {says}"
 
 
 def ends(place: tuple[float, float]) -> list[tuple[float, float]]:
@@ -185,7 +185,7 @@ def ends(place: tuple[float, float]) -> list[tuple[float, float]]:
 
 def holds(line: Line, numbers: Any) -> list[str]:
     """Sentences for an answer that passes: what its numbers show."""
-    _, least, lost, arms, (near, far) = line
+    place, least, lost, arms, (near, far) = line
     enough = "not enough" if lost else "enough"
     says = [f"With your bin, the bound of {least} is {enough} for these three streams."]
     if near > far:
@@ -193,6 +193,15 @@ def holds(line: Line, numbers: Any) -> list[str]:
             f"Under first come, {arms} arms miss {near} objects with the bin where the objects "
             f"come in, and {far} with the bin at the other end. At the first end, a late arm makes "
             "a longer trip and is later still; at the other end, its trip is shorter."
+        )
+    elif near == far == 0:
+        c = 2 * ways(ends(place)[0]).min()
+        load = c * float(numbers["v"]) / float(numbers["gap"])
+        says.append(
+            f"Under first come, too, {arms} arms miss none, with the bin at either end: here the "
+            "load is too small for the rule to matter. With the bin at an end, c v / g is only "
+            f"{load:.2f}, so the {arms} arms have enough idle time: a late arm is soon on time "
+            "again."
         )
     return says
 
@@ -218,19 +227,19 @@ WHY = {
     "taken for missed": "So many of the 600 objects are taken. Give the number that is missed.",
     "another number of missed objects": "missed: let `least` arms serve each of your three "
     "streams by the rule back soonest, and add up what they miss.",
-    "back soonest instead of first come": "So many are missed under back soonest. For "
-    "first_come, call count_missed with first_come=True.",
+    "back soonest instead of first come": "So many are missed under back soonest. "
+    "Call count_missed with first_come=True.",
     "first come by another number of arms": "So many are missed by `least` arms under first come. "
     "Give what `arms` arms miss.",
     "first come, one stream of three": "That is what your arms miss of the first stream under "
     "first come. Add the other two.",
     "first come, taken for missed": "So many of the 600 objects are taken under first come. Give "
     "the number that is missed.",
-    "the two ends swapped": "You swapped the ends in first_come: the first number is for "
-    "y = −0.45 m, where the objects come in.",
+    "the two ends swapped": "You swapped first_come_in and first_come_out: the objects come "
+    "in at y = −0.45 m.",
     "your own bin instead of one at the end": "So many are missed with your own bin. Call "
     "count_missed with the bin at this end, and your x.",
-    "another number under first come": "first_come: let `arms` arms, the same number as before, "
+    "another number under first come": "Let `arms` arms, the same number as before, "
     "serve your three streams under first come with the bin at this end, and add up what they "
     "miss.",
     "another bound": "The bound is c v / g, rounded up: c is 2 ways_from([x, y, 0.25]).min() for "

@@ -24,6 +24,7 @@ def p1() -> dict[str, Any]:
         "c": c,
         "rate": v / GAP,
         "one": 1 / c,
+        "served": floor(load) / c,
         "load": load,
         "inverse": 1 / load,
         "mixed": load / mm,
