@@ -2,9 +2,14 @@
 
 import math
 import re
+import shutil
+import subprocess
+import sys
+from itertools import pairwise
 
 import numpy as np
 import pytest
+from conftest import NOTEBOOKS
 from scipy.spatial.transform import Rotation
 from test_true_statements_b import cells
 from test_true_statements_b import run as run_cells
@@ -24,6 +29,8 @@ from robokin import (
     three_lever,
 )
 from robokin.course import book
+from robokin.jobs import redundancy
+from robokin.jobs.steppers import Stepper, phases
 
 # --- Lab 06 ---------------------------------------------------------------------------------------
 
@@ -293,3 +300,144 @@ def test_arm_with_equal_links_can_dip_below_the_floor_from_the_origin():
     assert abs(arm.fk(q[0]).translation).max() < 1e-9, "the tool should be at the origin"
     assert heights[1] < -1 and heights[2] > -1e-9
     assert (abs(q) <= np.abs(arm.limits).max(axis=1) + 1e-9).all()
+
+
+# --- The documents --------------------------------------------------------------------------------
+
+
+def test_listing_1_is_right_for_every_answer_inside_the_limits_but_not_at_every_allowed_pose():
+    """The poses are those of random postures inside the limits; q5 is far from 0."""
+    assert "but only in answers outside the limits." in flat("001", "title")
+    assert "the arcsine is right in every answer inside the limits" in flat("001", "arcsine-look")
+    made = run_cells(
+        "001", "setup", "vector", "quaternion", "transform", "chain-code", "inverse-code"
+    )
+    random = np.random.default_rng(0)
+    low, high = IRB140.limits.T
+    poses = random.uniform(low, high, (400, 6))
+    poses[:, 4] = random.uniform(20, 110, 400) * deg
+    poses = np.vstack([poses, np.radians([20, 15, -229, 10, 20, 30])])
+    missed, inside = [], []
+    for q in poses:
+        pose = IRB140.fk(q)
+        for flags in IRB140.branches:
+            with np.errstate(invalid="ignore"):
+                answer = np.array(made["irb_ik"](made["theirs"](pose), made["irb_l"], flags))
+            if np.isfinite(answer).all():
+                back = IRB140.fk(answer).as_matrix() - pose.as_matrix()
+                missed.append(abs(back).max())
+                turns = answer + 2 * np.pi * np.arange(-2, 3)[:, None]
+                inside.append(((turns >= low) & (turns <= high)).any(axis=0).all())
+    missed, inside = np.array(missed), np.array(inside)
+    assert inside.sum() > 400 and missed[inside].max() < 1e-6
+    assert missed[-8:].max() > 20 * mm, "the posture at the end shows the error"
+
+
+def test_each_frame_after_the_base_has_the_joints_that_the_companion_names():
+    assert "the wrist, of two joints; the flange, another 90° that is fixed" in flat("001", "chain")
+    made = run_cells("001", "setup", "vector", "quaternion", "transform", "chain-code")
+
+    def steps(q):
+        """The pose of each frame in the frame before it."""
+        frames = [made["ours"](frame).as_matrix() for frame in made["irb_chain"](q, made["irb_l"])]
+        return [frames[0], *(np.linalg.solve(a, b) for a, b in pairwise(frames))]
+
+    still = steps(np.zeros(6))
+    turned = [[] for _ in still]
+    for joint, q in enumerate(np.eye(6)):
+        for k, (was, now) in enumerate(zip(still, steps(q), strict=True)):
+            if abs(was - now).max() > 0.1:
+                turned[k].append(joint)
+    assert turned == [[], [0], [1], [2], [3, 4], [5]] and np.allclose(still[0], np.eye(4))
+    fixed = [np.degrees(np.arccos((np.trace(each[:3, :3]) - 1) / 2)) for each in still]
+    assert np.allclose(fixed, [0, 0, 0, 0, 0, 90])
+
+
+def test_second_angle_of_the_scara_triangle_has_the_wrong_sign_at_every_distance():
+    assert "since its sign is always wrong and, for" in flat("001", "scara-o")
+    d = np.linspace(51, 449, 400)
+    q1 = np.pi - np.arccos((250**2 + 200**2 - d**2) / (2 * 250 * 200))
+    printed = np.arcsin(250 * np.sin(q1 - np.pi) / d)
+    right = np.arccos((200**2 + d**2 - 250**2) / (2 * 200 * d))
+    assert (printed < 0).all() and (right > 0).all()
+    size_is_wrong = abs(right + printed) > 1e-9
+    assert np.array_equal(size_is_wrong, d < math.sqrt(250**2 - 200**2))
+
+
+def test_acceleration_of_the_blend_jumps_at_the_end_of_the_corner():
+    """The difference of the second derivatives at 8 s, from both sides, does not shrink with the
+    step.
+    """
+    assert "now finite but still jumps at both ends of the corner" in flat("001", "blend-look")
+    makers = "setup vector quaternion transform chain-code inverse-code task1-code wrap-code"
+    made = run_cells("001", *makers.split())
+    corner = [made["ours"](made[name]) for name in ("s11", "i11", "e11")]
+    row = IRB140.branch(1, 1, -1)
+    for h in (0.02, 0.01, 0.005):
+        for end in (8, 12):
+            s = (end + h * np.arange(-3, 4)) / 20
+            q = np.unwrap(IRB140.ik(blend(*corner, 0.1, s))[:, row], axis=0)
+            before, after = (np.diff(q[k : k + 3], n=2, axis=0)[0] / h**2 for k in (1, 3))
+            assert 0.1 < abs(after - before).max() < 0.3
+
+
+def test_each_half_winding_is_idle_for_as_long_as_the_companion_says():
+    assert "at least half of the time (in table 1, for three quarters)" in flat(
+        "003", "motors-leads-fed"
+    )
+    idle = {
+        drive: 1 - np.mean(phases(drive, "unipolar"), axis=0)
+        for drive in ("wave", "two-phase", "half-step")
+    }
+    assert np.allclose(idle["wave"], 3 / 4)
+    assert min(each.min() for each in idle.values()) == pytest.approx(1 / 2)
+
+
+def test_last_row_of_table_3_can_be_computed_but_is_wrong_near_the_base():
+    assert "three cells of the table are wrong as printed" in flat("003", "table")
+    for KO in (1.05, 1.2, 1.38):
+        printed = 3 * (KO**2 - 1) / (2 * KO)
+        right = (1 + KO**2 - 2**2) / (2 * KO)  # law of cosines: the levers BA and AK are in line
+        assert abs(printed) < 1 and abs(printed - right) > 0.9
+
+
+def test_drive_with_two_windings_on_is_as_strong_as_the_glossary_says():
+    """Two windings that pull at an angle: the torque is 2 cos(angle / 2) times that of one."""
+    glossary = (NOTEBOOKS / "documents" / "glossary.ipynb").read_text(encoding="utf-8")
+    assert "on at a time: √2 times as strong if they pull at right angles |" in glossary
+    motors = {
+        90: ("active", "unipolar"),
+        72: ("active", "unipolar", 5),
+        120: ("active", "unipolar", 3),
+        60: ("active", "bipolar", 3),
+    }
+    for angle, motor in motors.items():
+        one, two = (Stepper(*motor, drive=drive).holding_torque for drive in ("wave", "two-phase"))
+        assert two / one == pytest.approx(2 * math.cos(angle / 2 * deg))
+
+
+def test_readme_states_what_the_command_does_with_the_tasks(tmp_path):
+    readme = " ".join((NOTEBOOKS.parent / "README.md").read_text(encoding="utf-8").split())
+    assert "solves the tasks in the folder, and says why it skips one of them" in readme
+    shutil.copytree(NOTEBOOKS / "tasks", tmp_path / "tasks")
+    done = subprocess.run(
+        [sys.executable, "-m", "robokin.jobs", tmp_path / "tasks"],
+        cwd=tmp_path,
+        text=True,
+        capture_output=True,
+    )
+    told = done.stdout + done.stderr
+    assert re.search(r"Task \S+ skipped:\s+\S.*too close", told) and "1 skipped" in told
+
+
+def test_only_the_three_lever_arm_has_numerical_solvers():
+    """The solvers of `robokin.jobs.redundancy` refuse any other arm."""
+    readme = " ".join((NOTEBOOKS.parent / "README.md").read_text(encoding="utf-8").split())
+    assert "solvers in `robokin.jobs.redundancy` are only for the three-lever arm" in readme
+    arm = three_lever((1.0, 1.0, 1.0))
+    before = np.radians([100, 110, 120])
+    for solver in (redundancy.pseudo_inverse, redundancy.gradient_projection):
+        reached = arm.points(solver(arm, [1.8, 0.6], before))[..., 3, :]
+        assert np.allclose(reached, [1.8, 0.6], rtol=0, atol=1e-8)
+        with pytest.raises(TypeError):
+            solver(IRB140, [1.8, 0.6], before)
