@@ -654,7 +654,7 @@ def test_start_frequency_and_lost_steps_are_as_stated(capsys):
     start, tempo, made = map(
         int,
         re.search(
-            r"all 48 from (\d+) pulses per second on, .* at (\d+) it makes (\d+) steps",
+            r"all 48 at (\d+) pulses per second and above, .* at (\d+) it makes (\d+) steps",
             options[3].reason,
         ).groups(),
     )
@@ -917,7 +917,7 @@ def test_errors_near_the_line_x3_0_are_as_stated():
     x3, off = said(
         "12",
         "edges-look",
-        r"(\S+) nm from \$x_3 = 0\$, section 3 makes the links (\S+) nm too short",
+        r"(\S+) nm from \$x_3 = 0\$, the formula of section 3 makes the links (\S+) nm too short",
     )
     elbow = made["elbow_by_root"](x3 * 1e-9, 1.0, 1.0)
     for end in ((0, 0), (x3 * 1e-9, 1.0)):
