@@ -169,8 +169,10 @@ def test_rows_are_usable_where_the_first_view_says():
     low, high, *behind = said(
         "07", "able", r"From y = (\S+) to (\S+) mm, and from (\S+) to (\S+) mm\. Straight ahead"
     )
-    assert "joint 1 is past its limit in rows 4 to 7" in cells("07")["able"]
+    told = "joint 1 is past its limit in rows 4 to 7, and joint 4 in rows 3 and 7."
+    assert told in cells("07")["able"]
     assert fits[:, 0].tolist() == [True] * 4 + [False] * 4
+    assert np.flatnonzero(~fits[:, 3]).tolist() == [3, 7]
     y = np.arange(-800, 801)
     fits, reach = inside(np.stack([0 * y + 550, y, 0 * y + 800], axis=-1))
     every = fits.all(axis=(-2, -1))

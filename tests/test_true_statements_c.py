@@ -42,7 +42,7 @@ def flat(lab, cell):
 
 def shown(lab, cell):
     """The text in the stored output of a cell."""
-    (path,) = NOTEBOOKS.glob(f"{lab}_*.ipynb")
+    (path,) = [*NOTEBOOKS.glob(f"{lab}_*.ipynb"), *NOTEBOOKS.glob(f"documents/{lab}_*.ipynb")]
     (found,) = [
         each for each in json.loads(path.read_text(encoding="utf-8"))["cells"] if each["id"] == cell
     ]
