@@ -508,7 +508,7 @@ def test_mistakes_in_the_design_are_named():
 def test_answers_to_predictions_agree_with_other_calculations():
     right = {name: filled(p)[1][filled(p)[2]].text for name, p in LAB.predictions.items()}
     assert right["p1"] == "Joint 3 alone: the others only set the position."
-    assert right["p2"] == "Joint 4 alone: the tool rises or sinks evenly."
+    assert right["p2"] == "Joint 4 alone: the tool rises or descends evenly."
     assert right["p3"] == "x and y."
     assert right["p4"] == "In LIN alone: the line decides what the joints do."
     assert right["p7"] == "Joint 3: 410° becomes 50°."

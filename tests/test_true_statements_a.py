@@ -105,7 +105,7 @@ def test_trace_formula_loses_digits_near_half_a_turn():
     assert said.splitlines()[0] != stored.splitlines()[0]
     assert not np.allclose(g["by_trace"](g["as_matrix"](g["oblique"])), g["oblique"], atol=0.01)
     assert np.allclose(g["by_largest"](g["as_matrix"](g["oblique"])), g["oblique"], atol=1e-12)
-    left = number(r"= (\d) \\cdot 10\^\{-16\}\$ is no larger", sources("01")["shepperd"])
+    left = number(r"= (\d) \\cdot 10\^\{-16\}\$ is about as small", sources("01")["shepperd"])
     assert 4 * np.cos(179.999999 * deg / 2) ** 2 == pytest.approx(left * 1e-16, rel=0.02)
 
 

@@ -169,8 +169,10 @@ def test_rows_are_usable_where_the_first_view_says():
     low, high, *behind = said(
         "07", "able", r"From y = (\S+) to (\S+) mm, and from (\S+) to (\S+) mm\. Straight ahead"
     )
-    assert "joint 1 is past its limit in rows 4 to 7" in cells("07")["able"]
+    told = "joint 1 is past its limit in rows 4 to 7, and joint 4 in rows 3 and 7."
+    assert told in cells("07")["able"]
     assert fits[:, 0].tolist() == [True] * 4 + [False] * 4
+    assert np.flatnonzero(~fits[:, 3]).tolist() == [3, 7]
     y = np.arange(-800, 801)
     fits, reach = inside(np.stack([0 * y + 550, y, 0 * y + 800], axis=-1))
     every = fits.all(axis=(-2, -1))
@@ -654,7 +656,7 @@ def test_start_frequency_and_lost_steps_are_as_stated(capsys):
     start, tempo, made = map(
         int,
         re.search(
-            r"all 48 from (\d+) pulses per second on, .* at (\d+) it makes (\d+) steps",
+            r"all 48 at (\d+) pulses per second and above, .* at (\d+) it makes (\d+) steps",
             options[3].reason,
         ).groups(),
     )
@@ -917,7 +919,7 @@ def test_errors_near_the_line_x3_0_are_as_stated():
     x3, off = said(
         "12",
         "edges-look",
-        r"(\S+) nm from \$x_3 = 0\$, section 3 makes the links (\S+) nm too short",
+        r"(\S+) nm from \$x_3 = 0\$, the formula of section 3 makes the links (\S+) nm too short",
     )
     elbow = made["elbow_by_root"](x3 * 1e-9, 1.0, 1.0)
     for end in ((0, 0), (x3 * 1e-9, 1.0)):

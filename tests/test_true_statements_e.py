@@ -582,18 +582,23 @@ def test_joint_1_arrives_last_up_to_the_stated_speed():
     assert "joint_1 = np.array([0.075, 0.1, 0.125, 0.15, 0.2])" in cells("08")["time-player"]
     last = [int(np.argmax(turns / np.array([v, 0.2, 0.2]))) + 1 for v in speeds]
     assert [v for v, joint in zip(speeds, last, strict=True) if joint == 1][-1] == stated
-    assert set(last) == {1, 3} and "Above it, joint 3 arrives last" in flat("08", "time-look")
+    assert set(last) == {1, 3} and "Above that, joint 3 arrives last" in flat("08", "time-look")
 
 
-def test_other_elbow_exceeds_its_limit_except_at_the_workspace_boundary():
+def test_other_elbow_exceeds_its_limit_unless_the_arm_is_stretched_or_folded():
     words = flat("08", "rows-look")
-    assert "With the elbow flag −1, joint 3 is past its limit, except on the boundary" in words
+    told = (
+        "With the elbow flag −1, joint 3 is past its limit, unless the arm is stretched or folded."
+    )
+    assert told in words
     arm, rng = spbu_arm(5, 4), np.random.default_rng(8)
     low, high = arm.limits[2]
     points = rng.uniform([-9, -9, 0], 9, (4000, 3))
     d = np.linalg.norm(points, axis=1)
     points = points[(d > 1.01) & (d < 8.99) & (np.hypot(*points[:, :2].T) > 0.01)]
-    q3 = arm.ik(points)[:, [1, 3], 2]
+    points[::2, 2] = 0  # on the floor, which is part of the boundary of the workspace
+    d = np.linalg.norm(points, axis=1)
+    q3 = arm.ik(points[d > 1.01])[:, [1, 3], 2]
     assert not ((low <= q3) & (q3 <= high)).any()
     border = arm.ik([[1, 0, 0], [9, 0, 0]])[:, [1, 3], 2]
     assert ((low - 1e-9 <= border) & (border <= high + 1e-9)).all()
@@ -1099,7 +1104,7 @@ def test_long_turns_and_lost_steps_are_as_stated():
 def test_generated_c_has_only_doubles_and_both_texts_describe_the_rims_alike():
     assert "every variable in it is a double" in flat("12", "c-generate")
     assert "2*t3" in shown("12", "c-generate") and "int " not in shown("12", "c-generate")
-    anything = "ess than a millimetre from a rim, and with the tip on the base,"
+    anything = "If the tip is less than a millimetre from a rim, or on the base,"
     assert anything in flat("12", "your-turn-3") and anything in written("two_link_code_generation")
 
 
@@ -1110,7 +1115,7 @@ def test_between_two_jumps_the_arm_misses_the_tip():
     made = {"np": np}
     for name in ("casts-motion", "casts-player"):
         exec(cells("12")[name], made)
-    assert "The time in seconds is also $x_3$ in metres." in flat("12", "casts")
+    assert "At time $t$ in seconds, $x_3$ is $t$ metres." in flat("12", "casts")
     assert "animate([big, big], reach_x," in cells("12")["casts-player"]
     for y in (1.1, 1.6, 2.1):
         x = np.linspace(1.0, 3.5, 2001)

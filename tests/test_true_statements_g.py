@@ -156,13 +156,14 @@ def touched(T, places):
 
 
 def test_greed_loses_two_points_and_none_at_the_stated_times():
-    told = r"From (\S+) to (\S+) s it loses two points, and from (\S+) s on it loses none"
+    told = r"From (\S+) to (\S+) s it loses two points, and after (\S+) s it loses none"
     start, two, none = numbers(told, flat("08", "visit-look"))
     assert start == 7.5
     places, legs = opening(), table(opening())
     lost = {T / 10: np.subtract(*touched(T / 10, places)[::-1]) for T in range(75, 300)}
     assert {T for T in lost if lost[T] == 2} == {T for T in lost if T <= two}
-    assert {T for T in lost if lost[T] == 0} == {T for T in lost if T >= none}
+    assert {T for T in lost if lost[T] == 0} == {T for T in lost if T > none}
+    assert {touched(T, places) for T in (none + 0.01, none + 0.05)} == {(3, 3)}
     words = "If it always goes to the nearest point, it touches one."
     assert f"An arm has 7.5 seconds to touch four points. {words}" in flat("08", "title")
     assert touched(7.5, places) == (1, 3)
@@ -235,8 +236,16 @@ def test_numbers_of_the_question_about_more_time_are_right():
     assert T == 2 * 7.5 and touched(T, places) == (1, 3) and options[right].text == "One: point 0."
     assert "take 5.0, 5.5, 6.0, 6.5 s" in question
     assert [round(t, 1) for t in legs[0][1:]] == [5.0, 5.5, 6.0, 6.5]
-    for k in (2, 3, 4):  # every move between point 0 and the others passes p0
+    assert "point 0 and one of the others passes within a few millimetres of p0." in question
+    for k in (2, 3, 4):
         assert legs[1][k] == pytest.approx(legs[1][0] + legs[0][k], abs=0.01)
+        begin, end = joints_of(places[1]), joints_of(places[k])
+        turns = abs(end - begin)
+        for speeds in (turns / turns.max(), 1):  # the joints arrive together, or at full speed
+            made = np.minimum(np.linspace(0, turns.max(), 20001)[:, None] * speeds / turns, 1)
+            way = [place_of(begin + part * (end - begin)) for part in made]
+            miss = np.linalg.norm(np.array(way) - places[0], axis=1).min()
+            assert 1e-4 < miss < 7e-3, miss
     assert "5.0 + 5.5 = 10.5 s away, and 5.0 + 10.5 = 15.5 s is too late" in words
     assert legs[0][1] + legs[1][2] == pytest.approx(15.5, abs=0.05)
     assert touched(10, places)[0] == 1 and touched(17, places)[0] == 4

@@ -14,16 +14,19 @@ from scipy.spatial.transform import Rotation
 from test_true_statements_b import cells
 from test_true_statements_b import run as run_cells
 from test_true_statements_c import flat, numbers, shown
+from test_true_statements_f import one_line, option
 from test_true_statements_g import joints_of, place_of
 
 from robokin import (
     IRB140,
     ITMO6R,
+    PUMA560,
     SCARA,
     Quaternion,
     Transform,
     blend,
     deg,
+    lin,
     mm,
     spbu_arm,
     three_lever,
@@ -300,6 +303,123 @@ def test_arm_with_equal_links_can_dip_below_the_floor_from_the_origin():
     assert abs(arm.fk(q[0]).translation).max() < 1e-9, "the tool should be at the origin"
     assert heights[1] < -1 and heights[2] > -1e-9
     assert (abs(q) <= np.abs(arm.limits).max(axis=1) + 1e-9).all()
+
+
+# --- Third round: labs 07 and 08, companion 002 ---------------------------------------------------
+
+
+def test_at_the_goal_within_overlooks_joints_1_2_4_and_6():
+    """Followed on random lines, these end outside their limits although another value fits."""
+    told = "At the goal alone, `within` can overlook joints 1, 2, 4 and 6."
+    assert told in flat("07", "choose-rule")
+    low, high = PUMA560.limits.T[..., None]
+    rng, far = np.random.default_rng(1), np.hypot(431.8 + np.hypot(431.8, 20.3), 150.05) * mm
+    wxyz = Rotation.random(8000, random_state=rng).as_quat(scalar_first=True).reshape(2, 4000, 4)
+    place = [0, 0, 671.83 * mm] + rng.uniform(-far, far, (2, 4000, 3))
+    ends = Transform(Quaternion(wxyz), place)
+    ends = ends[:, np.isfinite(PUMA560.ik(ends)).all(axis=(0, 2, 3))]
+    rows = PUMA560.ik(lin(ends[0][:, None], ends[1][:, None], np.linspace(0, 1, 161)))
+    rows = np.unwrap(rows[np.isfinite(rows).all(axis=(1, 2, 3))], axis=1)
+    rows = np.moveaxis(rows, 2, 1)
+    rows = rows[(abs(np.diff(rows, axis=2)) < 90 * deg).all(axis=(2, 3))]  # (rows, 161, 6)
+    values = rows[..., None] + 2 * np.pi * np.arange(-3, 4)
+    fits = (low <= values) & (values <= high)
+    first = fits[:, 0].argmax(axis=-1)[..., None]  # the value with which the arm starts
+    arrives = np.take_along_axis(fits[:, -1], first, -1)[..., 0]
+    overlooked = fits[:, 0].any(axis=-1) & ~arrives & fits[:, -1].any(axis=-1)
+    assert (np.flatnonzero(overlooked.any(axis=0)) + 1).tolist() == [1, 2, 4, 6]
+    # joints 3 and 5 are overlooked on no line: on a row, they are less than half a turn away from
+    # the stretched arm or from 0, and to fit after a whole turn they would have to be farther away
+    straight = np.arctan2(431.8, 20.3) / deg
+    for joint, middle in ((3, -straight), (5, 0)):
+        lowest, highest = PUMA560.limits[joint - 1] / deg
+        assert highest - 360 < middle - 180 and middle + 180 < lowest + 360
+
+
+def flange_rates(pose, row, direction, step=1e-7):
+    """The joint speeds at 100 mm/s in some direction, °/s, by a difference of the inverse."""
+    ends = pose.translation + step * np.array([[-1], [1]]) * direction
+    q = PUMA560.ik(Transform(pose.rotation, ends))[:, row]
+    return 2 * np.sin((q[1] - q[0]) / 2) / (2 * step) * 0.1 / deg
+
+
+def test_joint_speeds_stay_bounded_in_some_directions():
+    words = flat("07", "short")
+    assert "On the lines of section 5, they grow as $1/m$ near the wrist singularity" in words
+    assert "in other directions, they can stay bounded." in words
+    aligned = PUMA560.fk(np.array([0, 60, -170, 0, 0, 0]) * deg)
+    sideways, upwards = [], []
+    for m in (1e-3, 1e-4, 1e-5):
+        past = Transform(translation=[150.05 * mm + m, 0, 1.2])
+        sideways.append(abs(flange_rates(past, 2, [0, 1, 0])).max())
+        above = Transform(aligned.rotation, aligned.translation + [0, 0, m])
+        upwards.append(abs(flange_rates(above, 3, [0, 0, 1])).max())
+    assert max(sideways) < 2 * 0.1 / 0.15005 / deg and max(upwards) < 15
+
+
+def test_fastest_joint_in_the_worst_direction_turns_as_stated():
+    chosen = option("puma560_branches.p6", "the worst direction")
+    (length,) = numbers(r"^About (\d+)°/s", chosen.text)
+    (fastest,) = numbers(
+        r"That is the length of the joint-speed vector in the worst direction; there, the fastest "
+        r"joint turns at (\d+)°/s\.",
+        one_line(chosen.reason),
+    )
+    pose = Transform(translation=[151.05 * mm, 0, 1.2])
+    angles = np.linspace(0, 180, 1801) * deg  # level directions
+    rates = [flange_rates(pose, 2, [np.cos(a), np.sin(a), 0]) for a in angles]
+    worst = rates[np.argmax(np.linalg.norm(rates, axis=1))]
+    assert np.linalg.norm(worst) == pytest.approx(length, abs=0.6)
+    assert abs(worst).max() == pytest.approx(fastest, abs=0.6)
+    for tilted in np.random.default_rng(6).normal(size=(2000, 3)):
+        rate = flange_rates(pose, 2, tilted / np.linalg.norm(tilted))
+        assert np.linalg.norm(rate) < length + 0.6 and abs(rate).max() < fastest + 0.6
+
+
+def test_mirrored_posture_passes_its_limit_at_low_points_near_and_far():
+    path = book.OURS / "visit_and_collect" / "inverse_programs.md"
+    words = one_line(path.read_text(encoding="utf-8"))
+    assert (
+        "at many points joint 2 is past its limit. Test the limits, too (in radians), at low"
+        in (words)
+    )
+    arm, rng = spbu_arm(5, 4), np.random.default_rng(9)
+    points = rng.uniform([-9, -9, 0], [9, 9, 1], (4000, 3))
+    out, d = np.linalg.norm(points[:, :2], axis=1), np.linalg.norm(points, axis=1)
+    past = arm.ik(points)[:, 2, 1] < -90 * deg  # row 2, joint 2
+    for near, beyond in ((1.5, 4), (4, 7), (7, 9)):
+        some = (out > near) & (out < beyond) & (d < 9)
+        assert past[some].mean() > 0.95
+
+
+def test_product_in_the_printed_c_code_overflows_first_at_29():
+    words = flat("002", "casts")
+    (stated,) = numbers(r"With whole numbers below (\d+), the result is right\.", words)
+    assert "the product in `t11` can overflow a 32-bit `int`" in words
+    assert "t11 = sqrt(-(double) (t1 * t5 * (-4 * t7 + t1 + t3)));" in words
+    assert "reliable only for small whole numbers" in flat("002", "title")
+
+    def largest(bound):
+        """Of the products for whole numbers below the bound, where the tip is in reach."""
+        x, y, l = (k**2 for k in np.ogrid[:bound, :bound, :bound])  # noqa: E741
+        products = x * (x + y) * (-4 * l + x + y)
+        return abs(products[products <= 0]).max()
+
+    assert largest(int(stated)) < 2**31 <= largest(int(stated) + 1)
+
+
+def test_formula_2_saves_operations_for_x2_alone_but_not_for_both_elbows():
+    counts = dict(re.findall(r"^(\S.*?\S) +\d+ -> +(\d+)", shown("002", "count-table"), re.M))
+    assert counts == {
+        "(2), x2": "19",
+        "general, x2": "24",
+        "(2), both elbows": "33",
+        "general, both elbows": "30",
+    }
+    words = flat("002", "count-note")
+    assert "it is longer for $x_2$ alone, but shorter for both elbows" in words
+    assert words.endswith("So for both elbows, (2) saves no operations.")
+    assert "needs fewer operations for both elbows." in flat("002", "short")
 
 
 # --- The documents --------------------------------------------------------------------------------

@@ -176,6 +176,8 @@ def p6() -> dict[str, Any]:
     right = nearest(0, {name: np.log(x / past) for (_, name), x in guesses.items()})
     plane = np.arccos(D3 / (D3 + 1 * mm)) / deg  # between the arm's plane and the tangent
     facts = {fact: x / deg for (fact, _), x in guesses.items()}
+    held = np.linalg.inv(PUMA560.jacobian(PUMA560.ik(beside(1 * mm))[2]))[:, :3]  # no rotation
+    facts["single"] = SPEED * abs(held @ np.linalg.svd(held)[2][0]).max() / deg
     facts |= {"near": distance, "plane": plane, "ceiling": 2 * SPEED / D3 / deg}
     return facts | {"right": right}
 

@@ -71,7 +71,7 @@ def p5() -> Mapping[str, Any]:
     t = np.array([4.8, 4.9, 5.0, 5.1, 5.2])
     q4 = SCARA.ik(blend(start, via, goal, 0.0, t / (2 * half)))[:, ROW, 3] / mm
     jump = (q4[4] - q4[3] - q4[1] + q4[0]) / 0.1
-    guesses = {"sign": -jump, "sizes": -after - before, "less": before + after, "first": before}
+    guesses = {"sign": -jump, "sizes": -after - before, "less": before + after, "first": -before}
     guesses |= {"mean": jump / 2, "metres": jump / 1000}
     told = {"down": down, "up": up, "half": half, "before": before, "after": Shown(after)}
     return {"jump": jump, "right": "after less before"} | guesses | told | {"slower": -after}
