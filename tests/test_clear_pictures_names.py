@@ -1,0 +1,87 @@
+"""A name in a picture stands at what it names, on a phone and with all sliders at their ends: a
+limit at its own arc of a zone, and a length at its own line.
+"""
+
+import itertools
+
+import numpy as np
+import pytest
+import test_clear_pictures
+from canvas_words import LINES, RECORD
+from test_clear_pictures import PHONE, along, shown
+
+from robokin import SCARA, ScaraPose, deg, follow, mm, scara_arm
+from robokin.show import animate, target_explorer
+from robokin.show.palette import PAGE
+from robokin.show.things import Zone
+
+page = test_clear_pictures.page
+
+
+def explored():
+    return target_explorer(SCARA, ScaraPose([0.25, 0, 0.2]), zone=True)
+
+
+def other_stop():
+    limits = SCARA.limits.copy()
+    limits[1] = -145 * deg, 145 * deg
+    arm = scara_arm("SCARA with another stop", 220.2 * mm, 200 * mm, 250 * mm, limits)
+    return target_explorer(arm, ScaraPose([0.25, 0, 0.1]), zone=True)
+
+
+def circles():
+    """An arm in space, whose tool goes once around a circle."""
+    t = np.linspace(0, 20, 401)
+    circle = np.stack([np.cos(t * np.pi / 10), np.sin(t * np.pi / 10), 0 * t], axis=-1)
+    targets = [ScaraPose([0.2, 0, 0.1] + r * circle, 0.0) for r in (0.05, 0.1)]
+    laps = [follow(SCARA, SCARA.ik(target), SCARA.branch(+1)) for target in targets]
+    return animate(
+        SCARA, t, np.array(laps), slider=("radius, mm", [50, 100]), things=[Zone(SCARA)], joints=[2]
+    )
+
+
+@pytest.mark.parametrize("end", ["none", "min", "max"])
+@pytest.mark.parametrize("width", [*PHONE, 914])
+@pytest.mark.parametrize(
+    ("view", "name"),
+    [
+        *itertools.product((explored, other_stop), ("x", "y", "angle")),
+        *itertools.product([circles], ("radius", "time")),
+    ],
+)
+def test_text_of_a_limit_is_next_to_its_own_side_of_the_zone(
+    page, tmp_path, view, name, width, end
+):
+    """It is nearer to this side than to a side of the same colour, and no name is left out."""
+    shown(page, view(), tmp_path, width, end, name, LINES, RECORD)
+    [lines, words] = page.evaluate(
+        "[document.querySelector('canvas').lines, canvasWords()[0].words]"
+    )
+    first, second = (
+        [line for line in lines if line["color"] == color and line["width"] == 2]
+        for color in (PAGE[f"joint{k}"][0].lower() for k in (1, 2))
+    )
+    assert len(first) == 4 and len(second) == 2
+    # each elbow draws its sides in the same order: q1 at one limit, q2, q1 at the other
+    limits = "q1 = 140°", "q1 = −140°", "q1 = −140°", "q1 = 140°"
+    texts = {w["text"]: w for w in words if w["text"].startswith("q") and "=" in w["text"]}
+    assert len(texts) == 3 and texts.keys() - {*limits} <= {"q2 = ±150°", "q2 = ±145°"}
+    for text, word in texts.items():
+        own, others = second, []
+        if text in limits:
+            own, others = (
+                [line for limit, line in zip(limits, first, strict=True) if (limit == text) == same]
+                for same in (True, False)
+            )
+        far = distance(word["box"], own)
+        assert far < 19, text
+        assert not others or far < distance(word["box"], others), text
+        assert not any(line["width"] == 1 and line["color"] == word["color"] for line in lines)
+
+
+def distance(box, lines):
+    """The distance of a box from the nearest of several lines."""
+    left, top, wide, high = box
+    drawn = np.concatenate([along(line) for line in lines])
+    nearest = np.clip(drawn, [left, top], [left + wide, top + high])
+    return np.linalg.norm(nearest - drawn, axis=-1).min()
