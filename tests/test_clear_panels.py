@@ -6,10 +6,10 @@ import numpy as np
 import pytest
 import test_player
 from canvas_words import LINES, RECORD
-from test_clear_pictures import PHONE, shown
+from test_clear_pictures import PHONE, TO_END, shown
 
-from robokin import deg, two_link
-from robokin.show import animate
+from robokin import IRB140, PUMA560, deg, two_link
+from robokin.show import animate, elbow_explorer
 from robokin.show.palette import PAGE
 
 page = test_player.page
@@ -60,3 +60,18 @@ def test_table_says_that_jumps_in_position_are_left_out():
     said = [animate(ARM, t, q).data["sampled"] for q in (steady, leaping)]
     assert said[1] == said[0] + ", without the jumps in position"
     assert animate([ARM] * 2, t, [steady, leaping]).data["sampled"] == said[1]
+
+
+@pytest.mark.parametrize("arm", [IRB140, PUMA560])
+@pytest.mark.parametrize("width", [*PHONE, 620, 700, 820, 860, 900])
+def test_tables_of_an_elbow_are_not_cut_off(page, tmp_path, width, arm):
+    """Their edge would be in the middle of a number."""
+    shown(page, elbow_explorer(arm), tmp_path, width, "none", "none")
+    for end, name in [("none", "none"), ("min", "r"), ("max", "r"), ("min", "z"), ("max", "z")]:
+        page.evaluate(TO_END, [end, name])
+        page.evaluate("() => new Promise(requestAnimationFrame)")
+        cut = page.evaluate(
+            """[...document.querySelectorAll(".rk-table")].map(
+              table => table.scrollWidth - table.clientWidth)"""
+        )
+        assert cut == [0, 0]

@@ -10,8 +10,8 @@ import test_clear_pictures
 from canvas_words import LINES, RECORD
 from test_clear_pictures import PHONE, along, shown
 
-from robokin import SCARA, ScaraPose, deg, follow, mm, scara_arm
-from robokin.show import animate, target_explorer
+from robokin import IRB140, PUMA560, SCARA, ScaraPose, deg, follow, mm, scara_arm
+from robokin.show import animate, elbow_explorer, target_explorer
 from robokin.show.palette import PAGE
 from robokin.show.things import Zone
 
@@ -81,7 +81,59 @@ def test_text_of_a_limit_is_next_to_its_own_side_of_the_zone(
 
 def distance(box, lines):
     """The distance of a box from the nearest of several lines."""
-    left, top, wide, high = box
     drawn = np.concatenate([along(line) for line in lines])
-    nearest = np.clip(drawn, [left, top], [left + wide, top + high])
-    return np.linalg.norm(nearest - drawn, axis=-1).min()
+    return np.linalg.norm(nearest(box, drawn) - drawn, axis=-1).min()
+
+
+@pytest.mark.parametrize("arm", [IRB140, PUMA560])
+@pytest.mark.parametrize("name", ["r", "z"])
+@pytest.mark.parametrize("end", ["none", "min", "max"])
+@pytest.mark.parametrize("width", [*PHONE, 900])
+def test_length_is_next_to_its_own_line_or_has_a_line_to_it(page, tmp_path, arm, name, end, width):
+    shown(page, elbow_explorer(arm), tmp_path, width, end, name, LINES, RECORD)
+    [lines, words] = page.evaluate(
+        "[document.querySelector('canvas').lines, canvasWords()[0].words]"
+    )
+    [[joint2, corner, point]] = [line["points"] for line in lines if line["dash"] == [5, 4]]
+    named = {"d": [joint2, point], "u": [joint2, corner], "w": [corner, point]}
+    others = []
+    for line in lines:
+        if line["dash"] == [8, 7]:
+            other = line["points"][1]
+            elbow = mirrored(joint2, point, other)
+            named |= {"l2": [joint2, elbow], "l3": [elbow, point]}
+            others = [[joint2, other], [other, point]]
+    found = {word["text"].split()[0]: word["box"] for word in words}
+    assert named.keys() <= found.keys()
+    colors = [PAGE[name][0].lower() for name in ("soft", "ink")]
+    leaders = [
+        line["points"]
+        for line in lines
+        if line["width"] == 1 and line["color"] in colors and not line["dash"]
+    ]
+    for length, own in named.items():
+        far = [distance(found[length], [{"points": line}]) for line in (own, *others)]
+        rest = [line for key, line in named.items() if key != length]
+        far += [distance(found[length], [{"points": line}]) for line in rest]
+        led = any(
+            distance(found[length], [{"points": leader}]) < 6
+            and min(distance([*tip, 0, 0], [{"points": own}]) for tip in leader) < 8
+            for leader in leaders
+        )
+        assert led or far[0] == min(far) and far[0] < 30, (length, far)
+    if width == 900:
+        to_joint = np.linalg.norm(nearest(found["joint"], np.array(joint2)) - joint2)
+        [column] = [line["points"][:2] for line in lines if line["width"] == 6]
+        assert to_joint <= max(19, distance(found["joint"], [{"points": column}]))
+
+
+def mirrored(a, b, place):
+    """The mirror image of a place in the line from a to b."""
+    a, way, place = np.array(a), np.subtract(b, a), np.array(place)
+    foot = a + way * (way @ (place - a)) / (way @ way)
+    return (2 * foot - place).tolist()
+
+
+def nearest(box, places):
+    left, top, wide, high = box
+    return np.clip(places, [left, top], [left + wide, top + high])

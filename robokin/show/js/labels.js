@@ -49,7 +49,8 @@ export function placeLabels(g, labels, [left, top, width, height], handles = [])
     while (marked < ink.length) mark(dots, ink[marked++]);
     g.font = font(12, weight);
     const wide = g.measureText(text).width + 4,
-      [ax, ay] = away ?? [0.5, -0.5];
+      [ax, ay] = away ?? [0.5, -0.5],
+      led = apart.length ? TIP : away ? Infinity : NEAR;
     let [least, bestX, bestY, place, fromX, fromY] = [Infinity, 0, 0, 0, 0, 0];
     for (const [x, y] of along) {
       const [px, py] = [between(x, left, width), between(y, top, height)],
@@ -76,14 +77,12 @@ export function placeLabels(g, labels, [left, top, width, height], handles = [])
           if (x > u - r && x < u + wide + r && y > v - r && y < v + HIGH + r) cost += heavy;
           if (cost >= least) break;
         }
-        if (k >= NEAR && !away && crossed(close, px, py, ...line(px, py, u, v, wide)))
-          cost += CROSSED;
+        if (k >= led && crossed(close, px, py, ...line(px, py, u, v, wide))) cost += CROSSED;
         if (cost < least) [least, bestX, bestY, place, fromX, fromY] = [cost, u, v, k, px, py];
       }
     }
     if (least > (tip ? TIPS : near ? MOST : Infinity)) continue;
-    if (place >= NEAR && !away)
-      lead(g, [fromX, fromY], line(fromX, fromY, bestX, bestY, wide), color);
+    if (place >= led) lead(g, [fromX, fromY], line(fromX, fromY, bestX, bestY, wide), color);
     if (color === colors.alarm) {
       // else the red ring of a joint would show between two words
       g.fillStyle = colors.paper;
