@@ -1,5 +1,5 @@
 """A name in a picture stands at what it names, on a phone and with all sliders at their ends: a
-limit at its own arc of a zone, and a length at its own line.
+limit at its own arc of a zone, and a length at its own line. Dashes stay dashes.
 """
 
 import itertools
@@ -10,12 +10,39 @@ import test_clear_pictures
 from canvas_words import LINES, RECORD
 from test_clear_pictures import PHONE, along, shown
 
-from robokin import IRB140, PUMA560, SCARA, ScaraPose, deg, follow, mm, scara_arm
-from robokin.show import animate, elbow_explorer, target_explorer
+from robokin import IRB140, PUMA560, SCARA, ScaraPose, deg, follow, mm, scara_arm, two_link
+from robokin.jobs.visit_collect import Task
+from robokin.show import (
+    animate,
+    crossing_explorer,
+    elbow_explorer,
+    target_explorer,
+    tour_explorer,
+)
 from robokin.show.palette import PAGE
 from robokin.show.things import Zone
 
 page = test_clear_pictures.page
+# `canvas.dashed`: the pieces of the dashed lines of the last picture, by their dashes
+DASHED = """{
+  const pen = CanvasRenderingContext2D.prototype;
+  const {clearRect, beginPath, moveTo, lineTo, stroke} = pen;
+  Object.assign(pen, {
+    clearRect(...all) { this.canvas.dashed = []; return clearRect.apply(this, all); },
+    beginPath() { this.pieces = []; return beginPath.call(this); },
+    moveTo(x, y) { this.pieces.push([[x, y]]); return moveTo.call(this, x, y); },
+    lineTo(x, y) {
+      if (!this.pieces.length) this.pieces.push([]);
+      this.pieces.at(-1).push([x, y]);
+      return lineTo.call(this, x, y);
+    },
+    stroke() {
+      const dash = this.getLineDash().join();
+      if (dash) this.canvas.dashed?.push({dash, color: this.strokeStyle, pieces: this.pieces});
+      return stroke.call(this);
+    },
+  });
+}"""
 
 
 def explored():
@@ -137,3 +164,41 @@ def mirrored(a, b, place):
 def nearest(box, places):
     left, top, wide, high = box
     return np.clip(places, [left, top], [left + wide, top + high])
+
+
+def crossings():
+    """The track of the left elbow turns back at its ends."""
+    return crossing_explorer(two_link(1.0, 1.0), (0.6, 0.8), divisor="x3")
+
+
+def collected():
+    """The arm brings each point to p0, and goes there and back on the same way."""
+    points = [[2.16, 3.37, 2], [1.81, -3.56, 2], [1.45, -3.73, 2], [1.07, -3.85, 2]]
+    task = Task(5, 4, T=25, speeds=[0.2] * 3, p0=[4, 0, 2], points=points, kind="collect")
+    return tour_explorer(task, best=False)
+
+
+@pytest.mark.parametrize(
+    ("view", "dash", "name"),
+    [(crossings, "7,4", "none"), (crossings, "7,4", "x3"), (collected, "7,7", "time")],
+)
+@pytest.mark.parametrize("width", [PHONE[0], 900])
+def test_dashed_line_does_not_run_back_over_itself(page, tmp_path, view, dash, name, width):
+    """Its dashes would fill the gaps."""
+    shown(page, view(), tmp_path, width, "max", name, DASHED)
+    lines = page.evaluate("document.querySelector('canvas').dashed")
+    lines = [line["pieces"] for line in lines if line["dash"] == dash]
+    assert lines
+    for pieces in lines:
+        starts, ends = (
+            np.concatenate([piece[part] for piece in map(np.array, pieces) if len(piece) > 1])
+            for part in (slice(-1), slice(1, None))
+        )
+        ways = ends - starts
+        long = np.linalg.norm(ways, axis=-1)
+        assert long.sum() > 20
+        for k in np.flatnonzero(long > 0.2):
+            to = starts[k] + ways[k] / 2 - starts[:k]
+            share = (to * ways[:k]).sum(axis=-1) / np.maximum(long[:k] ** 2, 1e-9)
+            off = np.linalg.norm(to - share.clip(0, 1)[:, None] * ways[:k], axis=-1)
+            assert not ((off < 1) & (ways[:k] @ ways[k] < 0)).any()

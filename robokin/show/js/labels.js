@@ -54,9 +54,7 @@ export function placeLabels(g, labels, [left, top, width, height], handles = [])
     let [least, bestX, bestY, place, fromX, fromY] = [Infinity, 0, 0, 0, 0, 0];
     for (const [x, y] of along) {
       const [px, py] = [between(x, left, width), between(y, top, height)],
-        close = dots.filter(
-          ({x, y, r}) => Math.abs(x - px) < wide + r + 90 && Math.abs(y - py) < r + 110,
-        );
+        close = dots.filter(({x, y, r}) => Math.hypot(x - px, y - py) < wide + r + 110);
       for (const each of apart) {
         mark(close, [[each], APART, WORD]);
         mark(close, [[each], 4 * APART, 0.1]);

@@ -23,7 +23,7 @@ export const zone = {
   /** Names each limit where it is free, and only next to its own sides. */
   above({cam: {to}}, zones, labels) {
     const sides = zones.flatMap(({elbows}) => elbows.flat());
-    for (const {text, joint} of new Map(sides.map(side => [side.text, side])).values()) {
+    for (const [text, {joint}] of new Map(sides.map(side => [side.text, side]))) {
       /** @type {(own: boolean, each: number) => Pixel[]} */
       const places = (own, each) =>
         sides
