@@ -270,7 +270,9 @@ const between = (a, b) => Array.from({length: 21}, (_, i) => along(a, b, i / 20)
  */
 const beside = (lines, more) =>
   lines.map(([text, a, b, place, color, weight], k) => {
-    const apart = lines.flatMap(([, a, b], i) => (i === k ? [] : between(a, b)));
+    // l2 and l3 may cover u and w, which come last
+    const others = weight ? lines.slice(0, 3) : lines,
+      apart = others.flatMap(([, a, b], i) => (i === k ? [] : between(a, b)));
     return {
       text,
       at: along(a, b),
