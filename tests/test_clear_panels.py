@@ -1,15 +1,16 @@
 """The words of a player's panels and table are next to what they name, and say what is true."""
 
+import itertools
 import re
 
 import numpy as np
 import pytest
 import test_player
 from canvas_words import LINES, RECORD
-from test_clear_pictures import PHONE, shown
+from test_clear_pictures import PHONE, TO_END, shown
 
-from robokin import deg, two_link
-from robokin.show import animate
+from robokin import IRB140, PUMA560, deg, spbu_arm, two_link
+from robokin.show import animate, elbow_explorer, joint_explorer
 from robokin.show.palette import PAGE
 
 page = test_player.page
@@ -60,3 +61,28 @@ def test_table_says_that_jumps_in_position_are_left_out():
     said = [animate(ARM, t, q).data["sampled"] for q in (steady, leaping)]
     assert said[1] == said[0] + ", without the jumps in position"
     assert animate([ARM] * 2, t, [steady, leaping]).data["sampled"] == said[1]
+
+
+@pytest.mark.parametrize("width", [*PHONE, 352, 620, 700, 820, 860, 900])
+@pytest.mark.parametrize("view", [elbow_explorer, joint_explorer])
+@pytest.mark.parametrize("arm", [IRB140, PUMA560, spbu_arm(5, 4)])
+def test_numbers_with_names_are_neither_cut_off_nor_broken(page, tmp_path, arm, view, width):
+    """At 352 px, a view is as wide as in a lab on a phone of 390 px."""
+    names = ["r", "z"] if view is elbow_explorer else [f"q{j + 1}" for j in range(len(arm.links))]
+    shown(page, view(arm), tmp_path, width, "none", "none")
+    for end, name in [("none", "none"), *itertools.product(("min", "max"), names)]:
+        page.evaluate(TO_END, [end, name])
+        page.evaluate("() => new Promise(requestAnimationFrame)")
+        tables = page.evaluate(
+            """[...document.querySelectorAll(".rk-few, .rk-elbow .rk-table")].map(table => [
+              table.scrollWidth - table.clientWidth,
+              ...[...table.querySelectorAll("td")].map(cell => {
+                const range = document.createRange();
+                range.selectNodeContents(cell);
+                return new Set([...range.getClientRects()].map(box => box.top)).size;
+              }),
+            ])"""
+        )
+        for over, *lines in tables:
+            assert over == 0 or width == 324, (over, end, name)
+            assert max(lines) == 1, (end, name)

@@ -14,7 +14,6 @@ from robokin import (
     PUMA560,
     SCARA,
     Quaternion,
-    ScaraPose,
     Transform,
     deg,
     follow,
@@ -38,7 +37,6 @@ from robokin.show import (
     movement_explorer,
     paths_explorer,
     rotation_explorer,
-    target_explorer,
     tour_explorer,
 )
 from robokin.show.palette import PAGE
@@ -398,30 +396,6 @@ def test_row_of_the_posture_is_always_named_at_the_edge(page, tmp_path, width):
             assert len(rows) == count
             assert faults(page) == []
             assert count == 2 or rows[0]["box"][1] > canvas["height"] - 22
-
-
-@pytest.mark.parametrize("end", ["none", "min", "max"])
-@pytest.mark.parametrize("width", [*PHONE, 1366])
-def test_text_of_a_limit_is_next_to_the_side_of_the_zone(page, tmp_path, width, end):
-    """A line from it would end on the arm or on another side."""
-    view = target_explorer(SCARA, ScaraPose([0.25, 0, 0.2]), zone=True)
-    shown(page, view, tmp_path, width, end, "x", LINES, RECORD)
-    [lines, words] = page.evaluate(
-        "[document.querySelector('canvas').lines, canvasWords()[0].words]"
-    )
-    sides = [PAGE[f"joint{k}"][0].lower() for k in (1, 2)]
-    texts = [word for word in words if word["text"].startswith("q") and "=" in word["text"]]
-    named = {word["text"][:2] for word in texts}
-    assert named == {"q1", "q2"} if end == "none" else named
-    for word in texts:
-        own = sides[int(word["text"][1]) - 1]
-        drawn = np.concatenate(
-            [along(line) for line in lines if line["color"] == own and line["width"] == 2]
-        )
-        left, top, wide, high = word["box"]
-        nearest = np.clip(drawn, [left, top], [left + wide, top + high])
-        assert np.linalg.norm(nearest - drawn, axis=-1).min() < 19, word["text"]
-        assert not any(line["width"] == 1 and line["color"] == word["color"] for line in lines)
 
 
 @pytest.mark.parametrize("width", [*PHONE, 914])

@@ -182,7 +182,16 @@ def test_special_angles_are_explained(opened):
         shown.type("φ", tilt)
         seen = shown.look()
         tells(shown, seen)
-        assert words in seen.says, (angle, tilt)
+        assert words in seen.says.replace("\xa0", " "), (angle, tilt)
+
+
+def test_lengths_have_a_unit_and_products_are_not_broken(opened):
+    """The numbers of q have no unit. A line that ends after "q v" would name another product."""
+    shown = opened(explorer())
+    rows = [row[0].replace("\xa0", " ") for row in shown.look().rows]
+    assert rows == ["q", "v, mm", "q v, mm", "q v q*, mm"]
+    for node in shown.rk.locator("th, .rk-says, .rk-meant").all():
+        assert "q v" not in node.inner_text() and "v q*" not in node.inner_text()
 
 
 def test_view_has_alt_text_and_fits_on_screen_and_paper(opened, browser):

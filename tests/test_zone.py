@@ -89,11 +89,31 @@ def test_named_joint_is_at_its_limit_on_every_side(name):
 
 def test_labels_state_the_limits_at_the_right_places():
     labels = dict(Zone(SCARA).labels)
-    assert list(labels) == ["q1 = 140°", "q2 = 150°", "q1 = −140°", "q2 = −150°"]
+    assert list(labels) == ["q1 = 140°", "q2 = ±150°", "q1 = −140°"]
     for text, at in labels.items():
-        joint, value = int(text[1]) - 1, float(text.split()[2].rstrip("°").replace("−", "-"))
-        rows = SCARA.ik(ScaraPose([*at[:2], 0.1]))
-        assert abs(rows[:, joint] / deg - value).min() < 1e-6
+        joint, value = int(text[1]) - 1, text.split()[2].rstrip("°").replace("−", "-")
+        rows = SCARA.ik(ScaraPose([*at[:2], 0.1]))[:, joint] / deg
+        wanted = [float(value.replace("±", sign)) for sign in ("", "-")]
+        assert abs(rows[:, None] - wanted).min(axis=0).max() < 1e-6
+
+
+@every_arm
+def test_every_side_at_a_limit_has_the_text_of_this_limit(name):
+    """It names both limits of joint 2 only if both elbows have a side on the same circle."""
+    arm = ARMS[name]
+    low, high = (arm.limits[:2] / deg).T.round(9)
+    for around, texts in zip(Zone(arm).sides, Zone(arm).texts, strict=True):
+        for (joint, points), text in zip(around, texts, strict=True):
+            if joint is None:
+                assert text == ""
+                continue
+            assert text[:5] == f"q{joint + 1} = "
+            value = float(text[5:-1].replace("−", "-").replace("±", ""))
+            assert value in (low[joint], high[joint])
+            assert ("±" in text) == (joint == 1 and low[1] == -high[1])
+            rows = arm.ik(ScaraPose([*points[len(points) // 2][:2], 0.25]))[:, joint] / deg
+            off = rows - value if "±" not in text else abs(rows) - value
+            assert abs((off + 180) % 360 - 180).min() < 1e-6
 
 
 def test_zone_of_another_arm_is_refused():
@@ -152,7 +172,7 @@ def test_dragging_the_target_finds_the_hole_and_the_joint_stops(opened):
     assert told(SCARA, first) > 30 and first.says in shown.data["summary"]
     assert "z" not in first.handles and {"free", "x", "y", "angle"} <= first.handles.keys()
     words = first.words[0].split("|")
-    assert {"q1 = 140°", "q1 = −140°", "q2 = 150°", "q2 = −150°"} <= set(words)
+    assert {"q1 = 140°", "q1 = −140°", "q2 = ±150°"} <= set(words)
     start = np.array(first.handles["free"]["at"])
     ahead = shown.drag("free", start - [60, 0])  # towards the column
     moved = first.boxes["x"] - ahead.boxes["x"]

@@ -5,6 +5,7 @@
 import base64
 import html
 import json
+import re
 from typing import Any
 
 from .joiner import compressed, script, style
@@ -14,17 +15,19 @@ STILL = (
     "A still picture. To see it move: run all cells (Run > Run All Cells), or trust the notebook "
     "(Ctrl+Shift+C, then Trust Notebook)."
 )
+WHOLE = re.compile(r'("(?:[^"\\]|\\.)*")|(?<=\d)\.0(?=[,\]}])')  # a string, or what ends 1.0
 
 
 def inert(data: Any) -> str:
-    """Return `data` as JSON that is safe inside a script. Raises ValueError if JSON cannot
-    represent it.
+    """Return `data` as JSON that is safe inside a script, with 1 for 1.0. Raises ValueError if JSON
+    cannot represent it.
     """
     try:
         text = json.dumps(data, separators=(",", ":"), ensure_ascii=False, allow_nan=False)
         text.encode()
     except (TypeError, ValueError, RecursionError) as error:
         raise ValueError(f"data: wanted values that JSON can represent ({error})") from None
+    text = WHOLE.sub(lambda found: found[1] or "", text)
     return text.replace("<", "\\u003c").replace("\u2028", "\\u2028").replace("\u2029", "\\u2029")
 
 

@@ -1,5 +1,7 @@
 """The explorer of a rotation: a vector v, the product q v, and the rotated vector q v q*."""
 
+import re
+
 import numpy as np
 
 from .._arrays import ArrayLike, Floats
@@ -19,7 +21,7 @@ from .scene import Scene
 
 MOST = 4 * np.pi  # after two whole turns, the quaternion has its initial value again
 FARTHEST = 120  # degrees: the largest angle between v and the axis
-ROWS = ("q", "v", "q v", "q v q*")
+LENGTHS = ("v", "q v", "q v q*")  # the rows of the table after that of q, which has no unit
 SEEN = (
     "A vector v of {length} {unit} at {tilt}° to the axis n, and q for the rotation by {angle}°. "
     "q v: real part {real}, vector part ({left}) {unit}. q v q*: ({whole}) {unit}."
@@ -90,11 +92,11 @@ def rotation_explorer(angle: float, axis: ArrayLike, v: ArrayLike) -> Explorer:
         "title": "Rotate v by q v q*",
         "summary": alt,
         "alt": alt,
-        "meant": MEANT,
+        "meant": _unbroken(MEANT),
         "unit": {"name": name, "size": size, "code": f" * {name}" if size == mm else ""},
         "scene": _scene(n, across, length),
         "controls": [control("θ", "°", 0, 720, 1), control("φ", "°", 0, FARTHEST, 1)],
-        "words": SAYS,
+        "words": {key: _unbroken(text) for key, text in SAYS.items()} | {"seen": SEEN},
         "code": "import numpy as np\nfrom robokin import Quaternion, deg, mm\n\n"
         "q = Quaternion.from_angle_axis({angle} * deg, {axis})\n"
         "v = np.array({v}){unit}\n"
@@ -103,11 +105,16 @@ def rotation_explorer(angle: float, axis: ArrayLike, v: ArrayLike) -> Explorer:
         "across": rounded(across, 12),
         "length": length,
         "angles": [turn, tilt],
-        "rows": list(ROWS),
+        "rows": ["q", *(_unbroken(f"{row}, {name}") for row in LENGTHS)],
         "heads": ["", "real part", "x", "y", "z"],
         "decimals": decimals,
     }
     return Explorer(data, _picture(alt, n, way, turn, left[1:] * size))
+
+
+def _unbroken(text: str) -> str:
+    """Return the text without a line break inside a product."""
+    return re.sub(r"q v( q\*)?", lambda found: found[0].replace(" ", "\N{NO-BREAK SPACE}"), text)
 
 
 def _across(n: Floats, v: Floats) -> Floats:

@@ -29,7 +29,7 @@ from ..jobs.visit_collect import (
 from ..jobs.visit_collect.arm import UNDER
 from ..units import deg, length_unit
 from . import plots
-from .camera import best_view, extent, scene_data
+from .camera import best_view, chain, extent, scene_data
 from .explorer import control
 from .explorer_page import TourPage
 from .live import Answer, Live, Question
@@ -38,7 +38,6 @@ from .page import PageScene
 from .palette import INK, JOINT_STYLES
 from .scene import Scene
 from .things import Mark
-from .twin import chain
 
 MOST = 12  # maximum number of points: the page stays legible, and the best order takes about 10 ms
 WHILE_HELD = 10  # with more points, the best order is computed only after the reader lets go

@@ -77,7 +77,7 @@ export function drawCurves(canvas, data, {tip}, {tracks, meets, elbows, formula,
     spot(g, [x(u(place)), y(at)], 4, colors.paper, colors.ink, 1.5);
   elbows.forEach((at, i) => spot(g, [x(u(tip)), y(at)], 3.5, [colors.accent, colors.near][i]));
   if (formula) spot(g, [x(u(tip)), y(formula)], 5, colors.ink);
-  nameCurves(g, rows, tracks[1], x, y, [left, MARGIN.top - 6, right - left, bottom - top + 6]);
+  nameCurves(g, rows, tracks, x, y, [left, MARGIN.top - 6, right - left, bottom - top + 6]);
   return {at: px => base[k] + ((px - middle) / ((right - left) / 2)) * far};
 }
 
@@ -94,25 +94,35 @@ const tickOf = (unit, base) => value => {
 };
 
 /**
- * Writes the names of both elbows beside the middle of their curves, where they cover nothing.
+ * Writes the names of both elbows beside their curves on the right, where they cover nothing, each
+ * apart from the other curve.
  * @param {Context} g
  * @param {string[]} names
- * @param {Tracks | undefined} track  the track on the right
+ * @param {Tracks[]} tracks
  * @param {(u: number) => number} x
  * @param {(at: Point) => number} y
  * @param {Box} room
  */
-function nameCurves(g, names, track, x, y, room) {
-  if (!track) return;
-  const i = track.u.length >> 1,
-    heights = [track.right[i], track.left[i]].map(y);
-  const labels = heights.map((height, k) => {
+function nameCurves(g, names, tracks, x, y, room) {
+  const curves = [true, false].map(right =>
+      tracks.map(({u, ...both}) =>
+        (right ? both.right : both.left).map(/** @returns {Pixel} */ (at, i) => [x(u[i]), y(at)]),
+      ),
+    ),
+    middle = [0.5, 0.4, 0.6, 0.3, 0.7];
+  if (!tracks[1]) return;
+  const labels = curves.map(([, own], k) => {
+    const along = middle.map(share => own[Math.floor(share * own.length)]),
+      apart = curves[1 - k].flat(),
+      [, other] = curves[1 - k];
     /** @type {Label} */
     const label = {
       text: names[k],
-      at: [x(track.u[i]), height],
+      at: along[0],
+      along,
+      apart,
       color: [colors.accent, colors.near][k],
-      away: [0, height > heights[1 - k] ? 5 : -5],
+      away: [0, along[0][1] > other[other.length >> 1][1] ? 5 : -5],
     };
     return label;
   });

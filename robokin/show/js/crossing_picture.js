@@ -6,8 +6,9 @@ import {fill} from "./blanks.js";
 import {clear, colors, spot, stroke} from "./canvas.js";
 import {movedTo} from "./crossing.js";
 import {singularities} from "./geometries.js";
-import {distance} from "./kinematics.js";
+import {distance, plus} from "./kinematics.js";
 import {point} from "./mark.js";
+import {once} from "./once.js";
 import {distance2} from "./rows.js";
 
 /** @import {Box, Context, Pixel, Point} from "./canvas.js" */
@@ -55,7 +56,7 @@ export function posed(data, state, found) {
     /** @type {(g: Context, cam: Camera) => void} */
     under: (g, cam) => drawTracks(g, cam, data, state, found),
     labels: [
-      ...jumpOf(data, found),
+      ...jumpOf(data, state, found),
       ...rimsOf(data).map(r => ({text: told(data, r), at: below(data, r)})),
       ...(divisor === null ? [] : [{text: fill(words.line, lineOf(data)), at: zeroLine(data)[0]}]),
     ].map(label => ({color: colors.soft, weight: "", ...label})),
@@ -65,15 +66,22 @@ export function posed(data, state, found) {
 }
 
 /**
- * The length of the jump, at the middle of the red dashes; nothing if there is no jump.
+ * The length of the jump, at the red dashes and apart from the line through the tip; nothing if
+ * there is no jump.
  * @param {CrossingExplorer} data
+ * @param {State} state
  * @param {Found} found
  */
-function jumpOf(data, {crossing: [from, to]}) {
-  const jump = from ? distance(from, to) : 0;
-  if (jump < SHORT * data.arm.geometry.reach) return [];
-  const middle = from.map((x, i) => (x + to[i]) / 2);
-  return [{text: told(data, jump), at: middle, color: colors.alarm}];
+function jumpOf(data, {tip}, {crossing: [from, to]}) {
+  const {arm, divisor} = data,
+    {reach} = arm.geometry,
+    jump = from ? distance(from, to) : 0;
+  if (jump < SHORT * reach) return [];
+  const along = [0.5, 0.4, 0.6, 0.3, 0.7].map(share => plus(from, plus(to, from, -1), share)),
+    apart = Array.from({length: 81}, (_, i) =>
+      movedTo(arm, tip, divisor ?? 0, (i / 40 - 1) * reach),
+    );
+  return [{text: told(data, jump), at: along[0], along, apart, color: colors.alarm}];
 }
 
 /**
@@ -151,7 +159,7 @@ function drawTracks(g, {to}, data, {tip}, {tracks, crossing}) {
     const formula = divisor === null ? [] : [rail(right, 1), rail(left, -1)][which];
     stroke(g, formula, clear(colors.ghost, 0.35), 11);
     stroke(g, rail(right, 1), colors.accent, 2.2);
-    stroke(g, rail(left, -1), colors.near, 2.2, [7, 4]);
+    stroke(g, once(rail(left, -1)), colors.near, 2.2, [7, 4]);
   }
   if (crossing.length) stroke(g, crossing.map(to), colors.alarm, 2.4, [5, 5]);
 }

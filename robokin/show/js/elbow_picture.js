@@ -32,9 +32,9 @@ const WIDE = 420; // px: the labels in a narrower picture are letters without nu
 const [HORIZON, BEND] = [44, 38]; // px: the greatest radii of the arcs of alpha and gamma
 
 /**
- * The places of a triangle on the canvas: the top of the column, joint 2, the point, the corner of
- * u and w, the elbows; and the pixels per metre.
- * @typedef {Record<"top" | "joint2" | "point" | "corner", Pixel>
+ * The places of a triangle on the canvas: the foot and the top of the column, joint 2, the point,
+ * the corner of u and w, the elbows; and the pixels per metre.
+ * @typedef {Record<"foot" | "top" | "joint2" | "point" | "corner", Pixel>
  *   & {elbows: Pixel[], scale: number}} Places
  */
 
@@ -83,6 +83,7 @@ function placesOf({to, scale}, {arm}, {r, z, elbows}) {
     joint2 = to([x, 0, height]);
   return {
     scale,
+    foot: to([0, 0, 0]),
     top: to([0, 0, height]),
     joint2,
     point: to([r, 0, z]),
@@ -100,6 +101,11 @@ const on = ([x, y], angle, radius) => [x + radius * Math.cos(angle), y - radius 
  * @param {Places} places
  */
 const horizon = ({arm}, {scale}) => Math.min(HORIZON, 0.6 * arm.geometry.elbow.upper * scale);
+
+/**
+ * A line with a name: its ends, and a place on the side where the name is not.
+ * @typedef {[text: string, a: Pixel, b: Pixel, place: Pixel, color: string, weight: string]} Named
+ */
 
 /** A place between two others. @type {(a: Pixel, b: Pixel, share?: number) => Pixel} */
 const along = (a, b, share = 0.5) => [a[0] + share * (b[0] - a[0]), a[1] + share * (b[1] - a[1])];
@@ -124,9 +130,14 @@ function awayFrom(a, b, place) {
  * @param {Seen} now
  * @param {Places} places
  */
-function drawBelow({g, cam: {to, scale}}, {arm}, {elbow}, {top, joint2, point, corner, elbows}) {
+function drawBelow(
+  {g, cam: {to, scale}},
+  {arm},
+  {elbow},
+  {foot, top, joint2, point, corner, elbows},
+) {
   const {upper, fore} = arm.geometry.elbow;
-  stroke(g, [to([0, 0, 0]), top, joint2], clear(colors.ghost, 0.35), 6);
+  stroke(g, [foot, top, joint2], clear(colors.ghost, 0.35), 6);
   /** @type {(centre: Pixel, radius: number) => Pixel[]} */
   const ring = (centre, radius) =>
     Array.from({length: 121}, (_, i) => on(centre, (i * Math.PI) / 60, radius * scale));
@@ -204,49 +215,71 @@ function missing({arm}, {u, w, gap}, {joint2, point, scale}) {
  * @returns {Label[]}
  */
 function labelsOf(data, now, places, wide) {
-  const {arm, unit, controls, elbows: names, words} = data,
+  const {unit, controls, elbows: names, words} = data,
     {joint2, point, corner, elbows} = places,
     bent = now.elbows[now.elbow],
-    elbow = elbows[now.elbow];
+    elbow = elbows[now.elbow],
+    column = between(places.foot, places.top);
   /** @type {(text: string, at: Pixel, color?: string, weight?: string) => Label} */
   const label = (text, at, color = colors.soft, weight = "") => ({text, at, color, weight});
+  const joint = {...label("joint 2", joint2), apart: column};
+  const own = [label(words.take, point, colors.ink, "600"), ...(wide ? [joint] : [])];
   /** @type {(name: string, x: number) => string} */
   const length = (name, x) =>
     wide ? `${name} ${number(x / unit.size, controls[0].decimals)}` : name;
   /** @type {(name: string, x: number) => string} */
   const angle = (name, x) => (wide ? `${name} ${number(degrees(x), 1)}\u00B0` : name);
-  /**
-   * The name of a line, on the side away from `place`.
-   * @type {(text: string, a: Pixel, b: Pixel, share: number, place: Pixel) => Label}
-   */
-  const beside = (text, a, b, share, place) => ({
-    ...label(text, along(a, b, share)),
-    away: awayFrom(a, b, place),
-  });
+  /** @type {Named[]} */
   const lines = [
-    {...beside(length("d", now.d), joint2, point, 0.5, elbow ?? corner), color: colors.ink},
-    beside(length("u", now.u), joint2, corner, 0.7, point), // clear of "joint 2"
-    beside(length("w", now.w), corner, point, 0.75, joint2),
-    label(words.take, point, colors.ink, "600"),
-    ...(wide ? [label("joint 2", joint2)] : []),
+    [length("d", now.d), joint2, point, elbow ?? corner, colors.ink, ""],
+    [length("u", now.u), joint2, corner, point, colors.soft, ""],
+    [length("w", now.w), corner, point, joint2, colors.soft, ""],
   ];
   if (!bent) {
-    const far = inWords(now.gap?.metres ?? 0),
-      [a, b] = missing(data, now, places);
-    const gap = {...beside(far, a, b, 0.5, corner), color: colors.alarm, weight: "600"};
-    return [gap, ...lines];
+    const [a, b] = missing(data, now, places),
+      far = label(inWords(now.gap?.metres ?? 0), along(a, b), colors.alarm, "600");
+    return [{...far, away: awayFrom(a, b, corner)}, ...beside(lines, column), ...own];
   }
   const {alpha, gamma} = bent,
-    {upper, fore} = arm.geometry.elbow;
-  return [
+    {upper, fore} = data.arm.geometry.elbow,
+    other = elbows[1 - now.elbow];
+  lines.unshift(
     // bold, as the links are
-    {...beside(length("l2", upper), joint2, elbow, 0.4, point), weight: "600"},
-    {...beside(length("l3", fore), elbow, point, 0.5, joint2), weight: "600"},
+    [length("l2", upper), joint2, elbow, point, colors.soft, "600"],
+    [length("l3", fore), elbow, point, joint2, colors.soft, "600"],
+  );
+  return [
+    ...own,
+    ...beside(lines, [...column, ...between(joint2, other), ...between(other, point)]),
     label(angle("\u03B1", alpha), on(joint2, 0.3 * alpha, horizon(data, places)), colors.ink),
     label(angle("\u03B3", gamma), on(elbow, alpha + 0.4 * gamma, BEND), colors.ink),
-    ...lines,
     ...names.map((text, k) =>
       k === now.elbow ? label(text, elbows[k], colors.ink, "600") : label(text, elbows[k]),
     ),
   ];
 }
+
+/** Points on a line, its ends included. @type {(a: Pixel, b: Pixel) => Pixel[]} */
+const between = (a, b) => Array.from({length: 21}, (_, i) => along(a, b, i / 20));
+
+/**
+ * The names of lines, each on the side away from its `place`, and apart from the other lines.
+ * @param {Named[]} lines
+ * @param {Pixel[]} more  points of lines without a name
+ * @returns {Label[]}
+ */
+const beside = (lines, more) =>
+  lines.map(([text, a, b, place, color, weight], k) => {
+    // l2 and l3 may cover u and w, which come last
+    const others = weight ? lines.slice(0, 3) : lines,
+      apart = others.flatMap(([, a, b], i) => (i === k ? [] : between(a, b)));
+    return {
+      text,
+      at: along(a, b),
+      along: [0.5, 0.6, 0.4, 0.7, 0.3, 0.8, 0.2].map(share => along(a, b, share)),
+      apart: [...apart, ...more],
+      away: awayFrom(a, b, place),
+      color,
+      weight,
+    };
+  });

@@ -9,7 +9,8 @@ import {WORD, colors, font, ink, stroke, wordInk, write} from "./canvas.js";
  * @typedef {object} Label
  * @property {string} text
  * @property {Pixel} at  its point
- * @property {Pixel[]} [along]  the points of its line; it names the one with the least ink near it
+ * @property {Pixel[]} [along]  the points of its line; it is at one of them
+ * @property {Pixel[]} [apart]  the points of lines that it could seem to name: it keeps away
  * @property {string} color
  * @property {string} [weight]
  * @property {Pixel} [away]  the preferred direction from its point; without it, the label prefers
@@ -25,6 +26,7 @@ const GAPS = [5, 14, 26, 40, 58, 84], // px between a point and its label
   NEAR = 3 * TURNS, // the number of places without a line
   HIGH = 16, // px: the height of a label
   REACH = 40, // px: the directions of the base, and letters beside them, are this near their centre
+  APART = 28, // px: twice the distance of a label from the lines of others
   CROSSED = 8, // the cost of a line that goes through words: less than to cover a link
   TIP = 2 * TURNS, // the number of places of a label with `tip` or `near`
   MOST = 40, // the cost above which a label with `near` is left out
@@ -43,51 +45,42 @@ export function placeLabels(g, labels, [left, top, width, height], handles = [])
   /** @type {Dot[]} */
   const dots = [];
   let marked = 0; // the number of lines in `ink` whose dots are known
-  for (const {text, at, along, color, weight, away, near, tip} of labels) {
+  for (const {text, at, along = [at], apart = [], color, weight, away, near, tip} of labels) {
     while (marked < ink.length) mark(dots, ink[marked++]);
     g.font = font(12, weight);
     const wide = g.measureText(text).width + 4,
       [ax, ay] = away ?? [0.5, -0.5],
-      [x, y] = along ? freest(along) : at,
-      [px, py] = [between(x, left, width), between(y, top, height)],
-      close = dots.filter(
-        ({x, y, r}) => Math.abs(x - px) < wide + r + 90 && Math.abs(y - py) < r + 110,
-      );
-    let [least, bestX, bestY, place] = [Infinity, 0, 0, 0];
-    for (let k = 0; k < (tip || near ? TIP : GAPS.length * TURNS); k++) {
-      const gap = GAPS[Math.floor(k / TURNS)],
-        turn = (2 * Math.PI * k) / TURNS,
-        [c, s] = [Math.cos(turn), -Math.sin(turn)],
-        u = px + c * (gap + wide / 2) - wide / 2,
-        v = py + s * (gap + HIGH / 2) - HIGH / 2;
-      if (tip && 2 * (ax * c + ay * s) < Math.hypot(ax, ay)) continue; // by more than 60°
-      let cost = gap / 6 + 1 - ax * c - ay * s;
-      if (u !== between(u, left, width - wide) || v !== between(v, top, height - HIGH))
-        cost += 5 * WORD;
-      if (cost >= least) continue;
-      // dots are objects, not arrays, since this loop takes most of the time
-      for (const {x, y, r, heavy} of close) {
-        if (x > u - r && x < u + wide + r && y > v - r && y < v + HIGH + r) cost += heavy;
-        if (cost >= least) break;
+      led = apart.length ? TIP : away ? Infinity : NEAR;
+    let [least, bestX, bestY, place, fromX, fromY] = [Infinity, 0, 0, 0, 0, 0];
+    for (const [x, y] of along) {
+      const [px, py] = [between(x, left, width), between(y, top, height)],
+        close = dots.filter(({x, y, r}) => Math.hypot(x - px, y - py) < wide + r + 110);
+      for (const each of apart) {
+        mark(close, [[each], APART, WORD]);
+        mark(close, [[each], 4 * APART, 0.1]);
       }
-      if (k >= NEAR && !away && crossed(close, px, py, ...line(px, py, u, v, wide)))
-        cost += CROSSED;
-      if (cost < least) [least, bestX, bestY, place] = [cost, u, v, k];
+      for (let k = 0; k < (tip || near ? TIP : GAPS.length * TURNS); k++) {
+        const gap = GAPS[Math.floor(k / TURNS)],
+          turn = (2 * Math.PI * k) / TURNS,
+          [c, s] = [Math.cos(turn), -Math.sin(turn)],
+          u = px + c * (gap + wide / 2) - wide / 2,
+          v = py + s * (gap + HIGH / 2) - HIGH / 2;
+        if (tip && 2 * (ax * c + ay * s) < Math.hypot(ax, ay)) continue; // by more than 60°
+        let cost = gap / 6 + 1 - ax * c - ay * s;
+        if (u !== between(u, left, width - wide) || v !== between(v, top, height - HIGH))
+          cost += 5 * WORD;
+        if (cost >= least) continue;
+        // dots are objects, not arrays, since this loop takes most of the time
+        for (const {x, y, r, heavy} of close) {
+          if (x > u - r && x < u + wide + r && y > v - r && y < v + HIGH + r) cost += heavy;
+          if (cost >= least) break;
+        }
+        if (k >= led && crossed(close, px, py, ...line(px, py, u, v, wide))) cost += CROSSED;
+        if (cost < least) [least, bestX, bestY, place, fromX, fromY] = [cost, u, v, k, px, py];
+      }
     }
     if (least > (tip ? TIPS : near ? MOST : Infinity)) continue;
-    if (place >= NEAR && !away) {
-      const [dx, dy] = line(px, py, bestX, bestY, wide),
-        gap = 6 / Math.hypot(dx, dy); // the line does not reach the dot at the point
-      stroke(
-        g,
-        [
-          [px + dx, py + dy],
-          [px + gap * dx, py + gap * dy],
-        ],
-        color,
-        1,
-      );
-    }
+    if (place >= led) lead(g, [fromX, fromY], line(fromX, fromY, bestX, bestY, wide), color);
     if (color === colors.alarm) {
       // else the red ring of a joint would show between two words
       g.fillStyle = colors.paper;
@@ -119,6 +112,23 @@ export function freest(places) {
  * @type {(px: number, py: number, u: number, v: number, wide: number) => Pixel}
  */
 const line = (px, py, u, v, wide) => [between(px, u, wide) - px, between(py, v, HIGH) - py];
+
+/**
+ * Draws a line from a point, but not up to the dot at the point itself.
+ * @type {(g: Context, at: Pixel, way: Pixel, color: string) => void}
+ */
+function lead(g, [x, y], [dx, dy], color) {
+  const gap = 6 / Math.hypot(dx, dy);
+  stroke(
+    g,
+    [
+      [x + dx, y + dy],
+      [x + gap * dx, y + gap * dy],
+    ],
+    color,
+    1,
+  );
+}
 
 /**
  * Whether a line from a point goes through words, beyond what is at the point itself.

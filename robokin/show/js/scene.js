@@ -31,6 +31,7 @@ import {compass} from "./triad.js";
  * @typedef {Omit<PageScene, "things"> & {things: Now<PageThing>[], unit: Unit}} Scene
  */
 /** @typedef {(g: Context, cam: Camera) => void} Draw */
+/** @typedef {{at: Point, along?: Point[], apart?: Point[]}} Places  of a label, in space */
 /**
  * @typedef {object} Shown  an arm as it is drawn
  * @property {string} name
@@ -47,8 +48,8 @@ import {compass} from "./triad.js";
  * @property {boolean} [glass]  whether to draw it translucent
  * @property {number[]} [past]  the joints that exceed a limit
  * @property {string} [row]  the row of `ik` to which the posture belongs
- * @property {(Omit<Label, "at"> & {at: Point})[]} [labels]  labels at points, bold unless they
- *   say otherwise
+ * @property {(Omit<Label, keyof Places> & Places)[]} [labels]
+ *   labels at points, bold unless they say otherwise
  * @property {Draw} [under]  draws anything else below the arm
  * @property {Draw} [over]  draws anything else above it
  * @property {(cam: Camera) => Point[]} [around]  points, besides those of the arm, that a growing
@@ -305,7 +306,10 @@ function drawSpace(pen, arms, [x, y, w, h], named) {
     labels.push({text, at, color: colors.alarm, weight: "600", away: [0, 1]});
   }
   for (const {cam, labels: own = []} of all)
-    for (const label of own) labels.push({weight: "600", ...label, at: cam.to(label.at)});
+    for (const {at, along = [at], apart = [], ...look} of own) {
+      const [places, others] = [along, apart].map(each => each.map(cam.to));
+      labels.push({weight: "600", ...look, at: cam.to(at), along: places, apart: others});
+    }
   placeLabels(g, labels, [x + 4, y + 24, w - 8, h - 46]);
   compass(g, cam, [x, y, w, h]); // last: labels need the room more
 }

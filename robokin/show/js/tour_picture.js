@@ -32,19 +32,20 @@ export function toured(chain, {t, q, order, times}, name) {
   const places = stops
     .flatMap((to, k) => {
       if (!k) return [to];
+      if (String(to) === String(stops[k - 2])) return [null, to]; // back on the same way
       const count = Math.max(
         1,
         Math.ceil(Math.max(...to.map((x, j) => Math.abs(x - stops[k - 1][j]))) / FINE),
       );
       return Array.from({length: count}, (_, i) => interpolate(stops[k - 1], to, (i + 1) / count));
     })
-    .map(posture => origin(fk(chain, posture)));
+    .map(posture => posture && origin(fk(chain, posture)));
   return {
     name,
     places,
     order,
     times,
-    dips: places.some(p => p[2] < 0),
+    dips: places.some(p => p && p[2] < 0),
     /** @type {(time: number) => number[]} */
     at(time) {
       const k = when.findIndex(x => x > time);
@@ -98,10 +99,15 @@ export const below =
       if (tour.dips)
         stroke(
           g,
-          tour.places.map(p => (p[2] < 0 ? to(p) : null)),
+          tour.places.map(p => (p && p[2] < 0 ? to(p) : null)),
           clear(colors.alarm, 0.35),
           9,
         );
-      stroke(g, tour.places.map(to), colors[COLORS[tour.name]], ...LINES[tour.name]);
+      stroke(
+        g,
+        tour.places.map(p => p && to(p)),
+        colors[COLORS[tour.name]],
+        ...LINES[tour.name],
+      );
     }
   };

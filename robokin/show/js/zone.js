@@ -3,6 +3,7 @@
 import {clear, colors, jointColor, polygon, shade, stroke} from "./canvas.js";
 
 /** @import {PageZone} from "./page.js" */
+/** @import {Pixel} from "./canvas.js" */
 /** @import {Kind} from "./scene.js" */
 
 /** @type {Kind<PageZone>} */
@@ -19,12 +20,18 @@ export const zone = {
     for (const {joint, dash, points} of found.flat())
       stroke(g, points.map(to), joint === null ? colors.soft : jointColor(joint), 2, dash);
   },
-  /** Names each side where it is free, and only next to it: it is next to other sides, too. */
+  /** Names each limit where it is free, and only next to its own sides. */
   above({cam: {to}}, zones, labels) {
-    for (const {text, joint, points} of zones.flatMap(({elbows}) => elbows.flat())) {
-      const along = points.filter((_, k) => k % 4 === 1).map(to),
-        color = shade(jointColor(joint ?? 0));
-      if (text) labels.push({text, at: along[0], along, color, near: true});
+    const sides = zones.flatMap(({elbows}) => elbows.flat());
+    for (const [text, {joint}] of new Map(sides.map(side => [side.text, side]))) {
+      /** @type {(own: boolean, each: number) => Pixel[]} */
+      const places = (own, each) =>
+        sides
+          .filter(side => side.joint === joint && (side.text === text) === own)
+          .flatMap(({points}) => points.filter((_, k) => k % each === 1).map(to));
+      const along = places(true, 4),
+        look = {color: shade(jointColor(joint ?? 0)), near: true};
+      if (text) labels.push({text, at: along[0], along, apart: places(false, 2), ...look});
     }
   },
 };

@@ -53,16 +53,18 @@ class Zone(Thing):
     sides   the sides of the area of each elbow, in order: the index of the joint at its limit, or
             None if the arm is stretched or folded; and points (k, 3)
     labels  texts with their positions (3,), which are points of the sides that they name
+    texts   for each side, the text that names its limit, or ""
     """
 
     sides: tuple[tuple[tuple[int | None, Floats], ...], ...]
     labels: tuple[tuple[str, Floats], ...]
+    texts: tuple[tuple[str, ...], ...]
 
     def __init__(self, arm: ClosedFormArm) -> None:
         geometry = instance(arm, ClosedFormArm, "arm").geometry
         if not isinstance(geometry, ScaraGeometry):
             raise TypeError(f"arm: wanted a SCARA, got {arm.name}")
-        sides, labels = [], []
+        sides, labels, texts = [], [], []
         for elbow in (+1, -1):
             low, high = np.clip(
                 np.sort(elbow * arm.limits[1]), 0, np.pi
@@ -74,38 +76,28 @@ class Zone(Thing):
             start, stop = np.clip(arm.limits[0], None, arm.limits[0, 0] + TURN)[::elbow]
             turned = None if abs(stop - start) >= TURN - 1e-9 else 0
             joints = [1 if low else None, turned, 1 if high < np.pi else None, turned]
+            limits = near, stop, far, start
             corners = np.array([(start, near), (stop, near), (stop, far), (start, far)])
             points = [_between(arm, *corners[[k, (k + 1) % 4]]) for k in range(4)]
             sides.append(tuple(zip(joints, points, strict=True)))
-            for k, limit, share in ((1, stop, 0.05), (2, far, 0.4)):
-                if (joint := joints[k]) is not None:
-                    text = f"q{joint + 1} = {limit / deg:g}°".replace("-", MINUS)
-                    labels.append((text, points[k][round(share * (len(points[k]) - 1))]))
-        self.hold(sides=tuple(sides), labels=tuple(labels))
+            texts.append(tuple(_text(*side, arm) for side in zip(joints, limits, strict=True)))
+            for k, share in ((1, 0.05), (2, 0.4)):
+                if texts[-1][k]:
+                    labels.append((texts[-1][k], points[k][round(share * (len(points[k]) - 1))]))
+        # both elbows have the side of joint 2 if its text is the same
+        self.hold(sides=tuple(sides), labels=tuple(dict(labels).items()), texts=tuple(texts))
 
     def page(self, kept: Ints | None) -> PageZone:
         return {
             "kind": "zone",
-            "elbows": [[self._side(*side) for side in around] for around in self.sides],
+            "elbows": [
+                [_side(*side, text) for side, text in zip(around, texts, strict=True)]
+                for around, texts in zip(self.sides, self.texts, strict=True)
+            ],
         }
 
     def seen(self, axis: float) -> Floats:
         return np.concatenate([np.empty((0, 3)), *(p for around in self.sides for _, p in around)])
-
-    def _side(self, joint: int | None, points: Floats) -> ZoneSide:
-        dash = () if joint is None else JOINT_STYLES[joint]["dash"]
-        name = None if joint is None else f"q{joint + 1}"
-        own = (
-            text
-            for text, at in self.labels
-            if text.split(" ")[0] == name and (points == at).all(axis=-1).any()
-        )
-        return {
-            "joint": joint,
-            "text": next(own, ""),
-            "dash": [WIDTH * x for x in dash],
-            "points": [rounded(point, 4) for point in points],
-        }
 
     def draw(self, scene: "Scene", sample: int | None) -> None:
         for around in self.sides:
@@ -128,3 +120,22 @@ def _between(arm: ClosedFormArm, start: Floats, end: Floats) -> Floats:
     count = int(np.ceil(abs(end - start).max() / STEP)) + 1
     q = np.concatenate([np.linspace(start, end, count), np.zeros((count, 2))], axis=-1)
     return frozen(arm.fk(q).translation * [1, 1, 0])
+
+
+def _text(joint: int | None, limit: float, arm: ClosedFormArm) -> str:
+    """Return the text of a limit, or of both limits of joint 2 if their sides are on one circle."""
+    if joint is None:
+        return ""
+    both = joint == 1 and arm.limits[1].sum() == 0
+    number = f"±{abs(limit) / deg:g}" if both else f"{limit / deg:g}".replace("-", MINUS)
+    return f"q{joint + 1} = {number}°"
+
+
+def _side(joint: int | None, points: Floats, text: str) -> ZoneSide:
+    dash = () if joint is None else JOINT_STYLES[joint]["dash"]
+    return {
+        "joint": joint,
+        "text": text,
+        "dash": [WIDTH * x for x in dash],
+        "points": [rounded(point, 4) for point in points],
+    }
