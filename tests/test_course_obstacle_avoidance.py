@@ -155,7 +155,7 @@ def _box(outlines, H):
 @pytest.mark.parametrize(
     "wrong, named",
     [
-        (_winding, "any turns, not an odd number"),
+        (_winding, "any number of turns, not only an odd one"),
         (_strictly_convex, "no dent allowed"),
         (_open_upward, "the closing side left out"),
         (_open_by_slices, "the closing side left out"),
@@ -398,7 +398,7 @@ def test_reply_on_turns_fits_the_first_shape_for_which_they_fail():
     (says,) = [
         each.says
         for each in ours.exercises["1"].text.wrong()
-        if each.name == "any turns, not an odd number"
+        if each.name == "any number of turns, not only an odd one"
     ]
     assert "Two outlines, or one whose sides cross, can go round H twice" in " ".join(says.split())
 

@@ -143,7 +143,7 @@ def test_gripper_distance_and_success_of_larger_circles_are_as_stated():
 
 
 def test_the_middle_of_a_five_pointed_star_is_outside():
-    ((_, says),) = mistakes("obstacle_avoidance", "any turns, not an odd number")
+    ((_, says),) = mistakes("obstacle_avoidance", "any number of turns, not only an odd one")
     assert "the middle of a five-pointed star drawn in a single stroke is outside" in says
     middle = np.array([0.01, 0.02])
     for points, step, inside in ((5, 2, False), (8, 3, True)):

@@ -710,7 +710,7 @@ def gripper_distance(path, H):
 def test_answers_to_the_questions_about_the_views_of_lab_10_are_true():
     H = np.array([1.2, 1.3])
     (far,) = numbers(
-        r"nearer to the obstacle H than (\S+) mm, but its levers do\.", flat("10", "title")
+        r"nearer to the obstacle H than (\S+) mm, but the arm's levers do\.", flat("10", "title")
     )
     assert "H, [(1, 1.3), (1, 1.2)])" in cells("10")["opening"]
     path = through((1, 1.3), (1, 1.2))

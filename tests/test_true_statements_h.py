@@ -454,7 +454,7 @@ def test_listing_1_is_right_for_every_answer_inside_the_limits_but_not_at_every_
 
 
 def test_each_frame_after_the_base_has_the_joints_that_the_companion_names():
-    assert "the wrist, of two joints; the flange, another 90° that is fixed" in flat("001", "chain")
+    assert "the wrist frame adds those of two joints; the flange frame adds another, fixed rotation by 90°" in flat("001", "chain")
     made = run_cells("001", "setup", "vector", "quaternion", "transform", "chain-code")
 
     def steps(q):
@@ -474,7 +474,7 @@ def test_each_frame_after_the_base_has_the_joints_that_the_companion_names():
 
 
 def test_second_angle_of_the_scara_triangle_has_the_wrong_sign_at_every_distance():
-    assert "since its sign is always wrong and, for" in flat("001", "scara-o")
+    assert "since its sign is always wrong, and so is its size for" in flat("001", "scara-o")
     d = np.linspace(51, 449, 400)
     q1 = np.pi - np.arccos((250**2 + 200**2 - d**2) / (2 * 250 * 200))
     printed = np.arcsin(250 * np.sin(q1 - np.pi) / d)

@@ -334,7 +334,7 @@ def test_rounds_repeat_or_drift_as_stated():
 
 def test_pair_that_planning_cannot_improve_turns_only_gamma_in_its_second_task():
     words = flat("09", "greed-hand")
-    assert "its targets are equally far from O, so the second task turns $\\gamma$ alone" in words
+    assert "its targets are equally far from O, so task 2 turns $\\gamma$ alone" in words
     made = quietly("09", "greed-code")
     pair = [
         FIRST,
