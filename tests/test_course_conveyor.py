@@ -13,7 +13,7 @@ from robokin.course.questions import filled
 
 LAB = book.lab("conveyor")
 CORNER, BIN = (0.35, -0.45), (0.15, -0.45)
-ENDS = "first_come_in", "first_come_out"
+ENDS, SPEED = ("first_come_in", "first_come_out"), "one_arm_speed"
 Y = np.linspace(-0.4, 0.4, 161)
 
 
@@ -56,6 +56,17 @@ def missed(v, gap, spread, seed, place, arms, first_come=False):
     return len(left)
 
 
+def last_speed(own, place, seeds=None, **rule):
+    """Return the speed in mm/s up to which one arm misses none, in steps of 5 mm/s."""
+    speed, belt = 5, (own["gap"], own["spread"])
+    while not any(
+        missed((speed + 5) / 1000, *belt, seed, place, **{"arms": 1} | rule)
+        for seed in seeds or own["seeds"]
+    ):
+        speed += 5
+    return speed
+
+
 def line(own, place, arms, least=None):
     bound = math.ceil(2 * ways(place).min() * own["v"] / own["gap"])
     numbers = own["v"], own["gap"], own["spread"]
@@ -65,7 +76,7 @@ def line(own, place, arms, least=None):
         for y in (-0.45, 0.45)
     ]
     least = bound if least is None else least
-    counts = {"least": least, "missed": lost, "arms": arms}
+    counts = {"least": least, "missed": lost, "arms": arms, SPEED: last_speed(own, place)}
     return {"bin": list(place)} | counts | dict(zip(ENDS, late, strict=True))
 
 
@@ -124,6 +135,68 @@ def test_mistakes_in_lines_are_named():
     assert not check("conveyor.1", right | {"arms": ...}, who="Ada").answered
 
 
+@pytest.mark.parametrize(("who", "place"), [("Ada", (0.35, 0.45)), ("student 11", CORNER)])
+def test_mistakes_in_the_speed_of_one_arm_are_named(who, place):
+    own = variant("conveyor", who)
+    right = line(own, place, own["most"])
+    speed = right[SPEED]
+    average = own["gap"] / (2 * ways(place).min()) * 1000
+    fastest = max(last_speed(own, place, [seed]) for seed in own["seeds"])
+    wrong = {
+        "only the average": math.floor(average / 5) * 5,
+        "the first speed with a miss": speed + 5,
+        "the speed of one stream": fastest,
+        "the speed of all arms": last_speed(own, place, arms=own["most"]),
+        "the bin of the lab": last_speed(own, BIN),
+        "the speed of the belt": round(1000 * own["v"]),
+        "another speed of one arm": speed - 10,
+    }
+    assert wrong["only the average"] > fastest > speed, "uneven gaps cost speed in every stream"
+    for name, number in wrong.items():
+        verdict = check("conveyor.1", right | {SPEED: number}, who=who)
+        assert name in verdict.mistake and not verdict.holds, (name, verdict)
+        assert verdict.says[0].startswith(f"{SPEED}: At ")
+        lost = [missed(number / 1000, own["gap"], own["spread"], seed, place, 1)
+                for seed in own["seeds"]]  # fmt: skip
+        told = f"At {number} mm/s, one arm with your bin misses {sum(lost)} of the 600 objects."
+        assert (told in verdict.says[0]) == any(lost)
+        if not any(lost):
+            assert f"At {number + 5} mm/s, one arm with your bin misses none" in verdict.says[0]
+    for number in (0, speed + 2):
+        verdict = check("conveyor.1", right | {SPEED: number}, who=who)
+        assert f"Wanted a multiple of 5 mm/s, got {number}." in verdict.says[0]
+    verdict = check("conveyor.1", right | {SPEED: speed / 1000}, who=who)
+    assert "one_arm_speed: wanted a whole number of mm/s" in verdict.says[0]
+    says = check("conveyor.1", right, who=who).says[2]
+    assert f"none up to {speed} mm/s. The average alone would allow {average:.0f} mm/s" in says
+
+
+def test_first_come_is_faster_for_one_arm_of_a_students_belt():
+    """Its speed is named if it is given instead."""
+    own, who = variant("conveyor", "student 8"), "student 8"
+    speed = last_speed(own, CORNER, first_come=True)
+    right = line(own, CORNER, own["most"])
+    assert speed != right[SPEED]
+    verdict = check("conveyor.1", right | {SPEED: speed}, who=who)
+    assert "the speed under first come" in verdict.mistake
+
+
+def test_solution_has_its_bin_where_the_objects_go_out_if_it_can():
+    """For some belts, that end needs one arm more than the other; the solution then changes it."""
+    solution = book.find("conveyor.1", "exercises").solution
+    found = {}
+    for who in ("your name", "Ada", "student 11"):
+        space = {}
+        exec(solution.replace('"your name"', repr(who)), space)
+        assert check("conveyor.1", space["my_line"], who=who).holds
+        own, out = space["own"], (0.35, 0.45)
+        numbers = own["v"], own["gap"], own["spread"]
+        enough = not any(missed(*numbers, seed, out, own["most"]) for seed in own["seeds"])
+        found[who] = space["my_line"]["bin"][1]
+        assert found[who] == (0.45 if enough else -0.45)
+    assert set(found.values()) == {0.45, -0.45}
+
+
 def test_mistakes_that_give_the_same_number_are_all_named():
     """The time of one way gives a bound of one arm, and so does rounding down."""
     own, who = variant("conveyor", "Anna Petrova"), "Anna Petrova"
@@ -172,6 +245,11 @@ def test_mistakes_under_first_come_are_named():
     for name, number in wrong.items():
         verdict = check("conveyor.1", right | {ENDS[0]: number}, who=who)
         assert verdict.mistake == name and verdict.says[0].startswith("first_come_in: "), name
+    # an answer with too many arms, which counts with the right number of them
+    more = line(own, CORNER, right["arms"] + 1)
+    assert more[ENDS[0]] != right[ENDS[0]]
+    verdict = check("conveyor.1", more | {end: right[end] for end in ENDS}, who=who)
+    assert verdict.mistake == "first come by another number of arms"
     # a bin that is not at an end has a count of its own
     own_bin = (0.35, -0.3)
     answer = line(own, own_bin, right["arms"])
@@ -198,7 +276,7 @@ def test_every_correct_answer_shows_that_the_place_of_the_bin_decides(who):
         assert f"the bound of {answer['least']} is {enough} for these" in verdict.says[1]
         assert (
             f"{near} objects with the bin where the objects come in, and {far} with"
-            in (verdict.says[2])
+            in (verdict.says[3])
         )
 
 
@@ -211,8 +289,8 @@ def test_reply_says_why_the_rule_makes_no_difference():
         verdict = check("conveyor.1", answer, who=who)
         load = 2 * ways(CORNER).min() * own["v"] / own["gap"]
         assert verdict.holds and load < 0.65 * own["most"], "the arms are idle a third of the time"
-        assert "the load is too small for the rule to matter" in verdict.says[2]
-        assert f"c v / g is only {load:.2f}, so the {own['most']} arms" in verdict.says[2]
+        assert "the load is too small for the rule to matter" in verdict.says[3]
+        assert f"c v / g is only {load:.2f}, so the {own['most']} arms" in verdict.says[3]
 
 
 def test_answer_of_the_old_form_is_told_the_new_keys():
@@ -223,6 +301,10 @@ def test_answer_of_the_old_form_is_told_the_new_keys():
     verdict = check("conveyor.1", old, who="Ada")
     assert verdict.mistake == "another kind or shape" and "y = −0.45 m" in verdict.says[0]
     assert all(f'"{end}"' in verdict.says[0] for end in ENDS)
+    newer = {key: n for key, n in answer.items() if key != SPEED}
+    verdict = check("conveyor.1", newer, who="Ada")
+    assert verdict.mistake == "another kind or shape"
+    assert f'also wanted "{SPEED}", the belt speed in mm/s' in verdict.says[0]
 
 
 @pytest.mark.parametrize(("place", "arms"), [(CORNER, 1), (BIN, 1), (BIN, 2), (BIN, 3)])

@@ -559,10 +559,10 @@ def test_one_arm_brings_as_many_objects_by_each_rule_as_stated(monkeypatch):
 
 def test_each_rule_misses_none_up_to_the_stated_belt_speed(monkeypatch):
     """In the six seconds of the view, and `first come` also in the whole stream."""
-    first, soonest, whole, lost, at = numbers(
+    first, soonest, whole, at, lost, few = numbers(
         r'In these six seconds, "first come" misses none up to (\d+) mm/s, and "back soonest" none '
-        r'up to (\d+)\. Of all 200, too, "first come" misses none up to (\d+), and (\d+) at '
-        r"(\d+)\.",
+        r"up to (\d+)\. But six seconds are not the stream: of all 200, both miss none up to "
+        r"(\d+); at (\d+), they miss (\d+) and (\d+)\.",
         flat("14", "belt-speed-look"),
     )
     speeds = [0.08, 0.09, 0.1, 0.11, 0.12, 0.13]
@@ -577,8 +577,9 @@ def test_each_rule_misses_none_up_to_the_stated_belt_speed(monkeypatch):
             shown_now = missed[int(rule is in_order), k]
             assert shown_now[-1] == ((left > start) & (left <= start + 6)).sum()
             assert (shown_now[-1] == 0) == (1000 * v <= most + 1e-6)
-    of_all = dict(zip([80, 90, 100, 110, 120, 130], all_missed[6:], strict=True))
-    assert whole == first == max(v for v, n in of_all.items() if n == 0) and of_all[at] == lost
+    for counts, many in ((all_missed[:6], few), (all_missed[6:], lost)):
+        of_all = dict(zip([80, 90, 100, 110, 120, 130], counts, strict=True))
+        assert whole == first == max(v for v, n in of_all.items() if n == 0) and of_all[at] == many
     assert all_missed[speeds.index(soonest / 1000)] > 0, "six seconds are too short for this rule"
 
 
@@ -600,7 +601,7 @@ def in_order(arrivals, v):
 def test_first_come_is_never_worse_for_one_arm_that_must_miss_none():
     words = flat("14", "belt-curve-look")
     (more,) = numbers(
-        r'"first come" \(dashed\) was never worse here, and up to (\d+) mm/s faster', words
+        r'"First come" \(dashed\) was never worse here, and up to (\d+) mm/s faster', words
     )
     made = quietly("14", "belt-spread")
     soonest, first = made["most"], made["most_first"]
@@ -630,14 +631,97 @@ def test_first_come_misses_far_more_a_little_above_its_limit():
     )
     assert [min(first), max(first)] == [least, most]
     assert [min(soonest), max(soonest)] == [few, many]
+    at_out = [len(at_far_end(belt_stream(0.5, seed) / 0.1, 0.1, False)) for seed in (8, 9, 10)]
+    in_turn = [len(at_far_end(belt_stream(0.5, seed) / 0.1, 0.1, True)) for seed in (8, 9, 10)]
+    assert at_out == in_turn and sorted({*at_out}) == [3, 4]
+    assert "With the bin at the *out* end (last column), either rule misses 3 or 4, and is" in flat(
+        "14", "belt-curve-look"
+    )
     line = shown("14", "belt-spread").splitlines()[-1]
-    assert line.endswith(f": back soonest {soonest}, first come {first}")
+    assert line.split() == f"{soonest} {first} {at_out}".split()
+
+
+def at_far_end(arrivals, v, in_order_too):
+    """The arrivals that one arm misses whose bin is at the other end of the window."""
+    left, free = list(arrivals), 0.0
+    ways, delays = WAYS[::-1], np.linspace(0, 0.8, 161) / v
+    while left:
+        at = np.array(left)[:, None] + delays
+        in_time = at >= free + ways - 1e-9
+        some = in_time.any(axis=-1)
+        if not some.any():
+            break
+        place = in_time.argmax(axis=-1)
+        back = np.where(some, at[range(len(left)), place] + ways[place], np.inf)
+        pick = int(some.argmax() if in_order_too else back.argmin())
+        free = back[pick]
+        del left[pick]
+    return left
+
+
+def test_a_single_arm_needs_neither_end_for_its_bin():
+    """At the end where the objects go out, both rules reach the same speeds, at most 5 mm/s lower
+    and 10 mm/s higher than those of first come at the other end.
+    """
+    assert "is at most 5 mm/s slower than" in flat("14", "belt-curve-look")
+    slower, faster = numbers(
+        r"the highest speed was at most (\d+) mm/s lower and (\d+) mm/s higher than under "
+        r'"first come" at the other end\.',
+        flat("14", "short"),
+    )
+    made = quietly("14", "belt-spread")
+    out, first = made["most_out"], made["most_first"]
+    assert ((out - first).min(), (out - first).max()) == (-slower, faster)
+    assert shown("14", "belt-spread").startswith(
+        "first come with the bin at y = 450 mm reaches the same speeds as back soonest: True"
+    )
+    for spread, row in zip((0, 0.25, 0.5, 0.75, 1), out, strict=True):
+        for seed, most in zip((8, 9, 10), row, strict=True):
+            stream = 1000 * belt_stream(spread, seed)
+            for rule in (False, True):
+                assert not at_far_end(stream / most, most / 1000, rule)
+                assert at_far_end(stream / (most + 5), (most + 5) / 1000, rule)
+
+
+def test_first_joint_decides_the_time_of_one_object():
+    """It turns farthest to every place of the window, and least to the first one."""
+    words = flat("14", "belt-bound")
+    assert "Here joint 1 always turns farthest, and least to the first point:" in words
+    at_bin, begin, turn, radians = numbers(r"= (\S+)° - (\S+)° = (\S+)° = (\S+)\$ rad, so", words)
+    (c,) = numbers(r"\\frac\{0\.661\}\{2\} = (\S+) \\text", words)
+    stand = joints_of([0.15, -0.45, 0.25], 0.5, 0.4)
+    places = [[0.6, y, 0.05] for y in np.linspace(-0.4, 0.4, 161)]
+    turns = np.abs([joints_of(place, 0.5, 0.4) - stand for place in places])
+    assert (turns.argmax(axis=-1) == 0).all() and turns[:, 0].argmin() == 0
+    assert np.degrees(turns[0, 0]) == pytest.approx(turn, abs=0.05)
+    assert turns[0, 0] == pytest.approx(radians, abs=5e-4)
+    assert -np.degrees(stand[0]) == pytest.approx(at_bin, abs=0.05)
+    assert math.degrees(math.atan2(400, 600)) == pytest.approx(begin, abs=0.05)
+    assert 2 * 15 / 8 * turns[0, 0] / 2 == pytest.approx(c, abs=5e-3)
+    assert 2 * WAYS.min() == pytest.approx(2 * 15 / 8 * turns[0, 0] / 2)
+    printed = shown("14", "belt-code").splitlines()[0]
+    least, most = numbers(r"at 161 of 161 places: (\S+)° to the first, (\S+)° to the last", printed)
+    assert (least, most) == (turn, pytest.approx(np.degrees(turns[-1, 0]), abs=0.05))
+
+
+def test_half_a_window_saves_arms_under_first_come():
+    assert "so that no trip is long: **try** `ALONG[:81]`." in flat("14", "belt-look")
+    in_turn = ("first_come = False", "first_come = True")
+    half = ("along = ALONG ", "along = ALONG[:81] ")
+    for spread, saved in ((0, 1), (0.5, 1), (1, 1)):
+        counts = []
+        for changed in ([in_turn], [in_turn, half]):
+            with contextlib.redirect_stdout(io.StringIO()):
+                taken = run_cells("14", "belt-arms", changed=changed)["taken"]
+            assert taken(0.2, spread).sum() == 200
+            counts.append((taken(0.2, spread) > 0).sum())
+        assert counts[0] - counts[1] == saved
 
 
 def test_twice_the_gap_does_not_double_the_speed_for_uneven_gaps():
     low, high, low_long, high_long = numbers(
-        r"`gap = 300 \* mm` in section 3: the speed doubles at spread 0, but rises only from "
-        r"(\d+)–(\d+) to (\d+)–(\d+) mm/s at spread 1",
+        r'`gap = 300 \* mm` in section 3: the speed of "back soonest" doubles at spread 0, but '
+        r"rises only from (\d+)–(\d+) to (\d+)–(\d+) mm/s at spread 1",
         flat("14", "deeper"),
     )
     assert "gap = 150 * mm  # try 300 * mm" in cells("14")["belt-spread"]
@@ -657,13 +741,16 @@ def test_twice_the_gap_does_not_double_the_speed_for_uneven_gaps():
 def test_first_come_needs_more_arms_as_stated():
     assert (
         "At 200 mm/s, even evenly spaced objects then need four arms instead of two, since each "
-        "arm but the last gets more objects than it can take." in flat("14", "belt-rules-look")
+        "arm but the last gets more objects than it can take (50, 50 and 49: **try** `first_come = "
+        "True` below)." in flat("14", "belt-rules-look")
     )
     assert "first_come = False  # try True" in cells("14")["belt-arms"]
-    left, count = belt_stream(0, 8) / 0.2, 0
+    left, takes = belt_stream(0, 8) / 0.2, []
     while len(left):
-        left, count = np.array(in_order(left, 0.2)[1]), count + 1
-    assert (count, arms_needed(0.2, 0, 8)) == (4, 2)
+        backs, left = in_order(np.array(left), 0.2)
+        takes.append(len(backs))
+    assert takes[:3] == [50, 50, 49]
+    assert (len(takes), arms_needed(0.2, 0, 8)) == (4, 2)
 
 
 def test_only_first_come_gives_the_fourth_arm_work(monkeypatch):
@@ -692,8 +779,9 @@ def test_only_first_come_gives_the_fourth_arm_work(monkeypatch):
 def test_rules_are_equally_good_with_the_bin_at_the_other_end():
     """A late arm then meets its object nearer to the bin."""
     assert (
-        "Both rules then take equally many objects at all five speeds, and as many as the better "
-        "rule at the other end, to within two (last lines)." in flat("14", "belt-row")
+        "The object that came first is met nearest to the bin, so it is brought back soonest: both "
+        "rules take equally many objects at all five speeds, and as many as the better rule at the "
+        "other end, to within two." in flat("14", "belt-row")
     )
     assert (
         "in section 2 either rule took as many objects as the better rule at the other end, to "
@@ -704,24 +792,9 @@ def test_rules_are_equally_good_with_the_bin_at_the_other_end():
     for v, line in zip((0.1, 0.15, 0.2, 0.25, 0.3), printed, strict=True):
         arrivals = belt_stream(0.5, 8) / v
         near = [200 - len(rule(arrivals, v)[1]) for rule in (one_arm, in_order)]
-        far = []
-        ways, delays = WAYS[::-1], np.linspace(0, 0.8, 161) / v
-        for in_order_too in (False, True):
-            left, free, count = list(arrivals), 0.0, 0
-            while left:
-                at = np.array(left)[:, None] + delays
-                in_time = at >= free + ways - 1e-9
-                some = in_time.any(axis=-1)
-                if not some.any():
-                    break
-                place = in_time.argmax(axis=-1)
-                back = np.where(some, at[range(len(left)), place] + ways[place], np.inf)
-                pick = int(some.argmax() if in_order_too else back.argmin())
-                free, count = back[pick], count + 1
-                del left[pick]
-            far.append(count)
+        far = [200 - len(at_far_end(arrivals, v, rule)) for rule in (False, True)]
         assert far[0] == far[1] and abs(far[0] - max(near)) <= 2
-        told, *counts = numbers(r"(\d+) mm/s: +(\d+) +(\d+); +(\d+) +(\d+)$", line)
+        told, *counts = numbers(r"(\d+) mm/s +(\d+) +(\d+) +(\d+) +(\d+)$", line)
         assert told == pytest.approx(1000 * v) and counts == near + far
 
 

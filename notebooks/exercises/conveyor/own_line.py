@@ -16,16 +16,18 @@ from robokin.jobs.conveyor import BIN, ways_from
 from .shared import COUNT as OBJECTS
 from .shared import Floats, taken
 
-COUNT = 6
-KEYS = ("bin", "least", "missed", "arms", "first_come_in", "first_come_out")
+COUNT = 7
+SPEED_KEY = "one_arm_speed"
+KEYS = ("bin", "least", "missed", "arms", SPEED_KEY, "first_come_in", "first_come_out")
 LOW, HIGH = np.array([[150, -450], [350, 450]]) * mm  # where the bin may stand: x and y
 HEIGHT = 250 * mm
 CORNER = (350 * mm, -450 * mm)  # the least time of one object
 MOST_ARMS = 12
+STEP = 5  # mm/s
 Fault = tuple[str, str]
-# the bin, the bound, what so few arms miss, the arms, and what these miss under "first come" with
-# the bin at each end of the window
-Line = tuple[tuple[float, float], int, int, int, tuple[int, int]]
+# the bin, the bound, what so few arms miss, the arms, the speed up to which one arm misses nothing,
+# and what the arms miss under "first come" with the bin at each end of the window
+Line = tuple[tuple[float, float], int, int, int, int, tuple[int, int]]
 
 
 @cache
@@ -73,7 +75,31 @@ def given(who: Any) -> Numbers:
     return Numbers(values | {"most": most}, units)
 
 
+def is_last(
+    numbers: Mapping[str, Any],
+    place: tuple[float, float],
+    v: int,
+    arms: int = 1,
+    *,
+    first_come: bool = False,
+) -> bool:
+    """Whether these arms miss nothing at v mm/s, but something at the next step."""
+    now, then = (
+        any(missed(at_speed(numbers, each), place, arms, first_come=first_come))
+        for each in (v, v + STEP)
+    )
+    return then and not now
+
+
+def at_speed(numbers: Mapping[str, Any], v: int) -> dict[str, Any]:
+    """The same belt at another speed, in mm/s."""
+    return dict(numbers) | {"v": v * mm}
+
+
 def form(answer: Any, numbers: Any) -> Line:
+    if isinstance(answer, Mapping) and set(answer) == set(KEYS) - {SPEED_KEY}:
+        wanted = f'also wanted "{SPEED_KEY}", the belt speed in mm/s up to which one arm with your'
+        raise ValueError(f"{wanted} bin misses none, got an answer without it")
     if isinstance(answer, Mapping) and "first_come" in answer and KEYS[-1] not in answer:
         wanted = '"first_come_in" and "first_come_out", whole numbers for the bin at y = −0.45 m'
         raise ValueError(f'wanted {wanted} and at y = 0.45 m, got "first_come"')
@@ -94,14 +120,15 @@ def form(answer: Any, numbers: Any) -> Line:
         except (TypeError, ValueError):
             value = float("nan")
         if not 0 <= value <= 1000 or value % 1:
-            raise ValueError(f"{key}: wanted a whole number, got {in_words(answer[key])}")
+            wanted = "a whole number" + " of mm/s" * (key == SPEED_KEY)
+            raise ValueError(f"{key}: wanted {wanted}, got {in_words(answer[key])}")
         counts.append(int(value))
-    least, lost, arms, near, far = counts
-    return (float(place[0]), float(place[1])), least, lost, arms, (near, far)
+    least, lost, arms, speed, near, far = counts
+    return (float(place[0]), float(place[1])), least, lost, arms, speed, (near, far)
 
 
 def faults(line: Line, numbers: Any) -> list[Fault]:
-    place, least, told, arms, told_first = line
+    place, least, told, arms, speed, told_first = line
     if (np.array(place) < LOW - 1e-9).any() or (np.array(place) > HIGH + 1e-9).any():
         name = "millimetres for metres" if max(map(abs, place)) > 2 else "the bin is somewhere else"
         says = (
@@ -134,6 +161,8 @@ def faults(line: Line, numbers: Any) -> list[Fault]:
             found.append((name, says))
         if fault := first_come_slips(numbers, place, served, arms, told_first):
             found.append(fault)
+    if fault := speed_slips(numbers, place, arms, speed):
+        found.append(fault)
     if arms > most:
         says = (
             f"You may use {most} arms at most. Try other places for the bin, also nearer to the "
@@ -143,6 +172,36 @@ def faults(line: Line, numbers: Any) -> list[Fault]:
             says = "With this bin, fewer arms already miss none: try count_missed with fewer arms."
         found.append(("more arms than allowed", says))
     return found
+
+
+def speed_slips(
+    numbers: Mapping[str, Any], place: tuple[float, float], arms: int, told: int
+) -> Fault | None:
+    """The mistake in the speed up to which one arm misses nothing."""
+    if told < STEP or told % STEP:
+        name = "another speed of one arm"
+        return name, f"{SPEED_KEY}: Wanted a multiple of {STEP} mm/s, got {told}."
+    if is_last(numbers, place, told):
+        return None
+    average = float(numbers["gap"]) / (2 * ways(place).min()) / mm
+    streams = [dict(numbers) | {"seeds": [seed]} for seed in numbers["seeds"]]
+    slips = {
+        "only the average": told == floor(average / STEP) * STEP,
+        "the first speed with a miss": told > STEP and is_last(numbers, place, told - STEP),
+        "the speed of one stream": any(is_last(each, place, told) for each in streams),
+        "the speed of all arms": 1 < arms <= MOST_ARMS and is_last(numbers, place, told, arms),
+        "the speed under first come": is_last(numbers, place, told, first_come=True),
+        "the bin of the lab": is_last(numbers, (float(BIN[0]), float(BIN[1])), told),
+        "the speed of the belt": told == round(float(numbers["v"]) / mm),
+    }
+    names = [name for name, holds in slips.items() if holds]
+    lost = sum(missed(at_speed(numbers, told), place, 1))
+    says = [f"At {told} mm/s, one arm with your bin misses {lost} of the 600 objects."]
+    if not lost:
+        says = [f"At {told + STEP} mm/s, one arm with your bin misses none, either."]
+    if names:
+        says.append(" Or: ".join(SPEED_WHY[name] for name in names))
+    return " or ".join(names) or "another speed of one arm", f"{SPEED_KEY}: {' '.join(says)}"
 
 
 def first_come_slips(
@@ -163,9 +222,12 @@ def first_come_slips(
     k = 0 if told[0] != right[0] else 1  # the first wrong number
     slips = [
         ("back soonest instead of first come", sum(missed(numbers, stands[k], arms))),
-        (
-            "first come by another number of arms",
-            sum(missed(numbers, stands[k], served, first_come=True)),
+        *(
+            (
+                "first come by another number of arms",
+                sum(missed(numbers, stands[k], n, first_come=True)),
+            )
+            for n in sorted({*range(1, int(numbers["most"]) + 2), served} - {arms})
         ),
         ("first come, one stream of three", late[k][0]),
         ("first come, taken for missed", 3 * OBJECTS - right[k]),
@@ -185,9 +247,14 @@ def ends(place: tuple[float, float]) -> list[tuple[float, float]]:
 
 def holds(line: Line, numbers: Any) -> list[str]:
     """Sentences for an answer that passes: what its numbers show."""
-    place, least, lost, arms, (near, far) = line
+    place, least, lost, arms, speed, (near, far) = line
     enough = "not enough" if lost else "enough"
-    says = [f"With your bin, the bound of {least} is {enough} for these three streams."]
+    mean = float(numbers["gap"]) / (2 * ways(place).min()) / mm
+    says = [
+        f"With your bin, the bound of {least} is {enough} for these three streams.",
+        f"One arm misses none up to {speed} mm/s. The average alone would allow {mean:.0f} mm/s, "
+        "where c v / g = 1.",
+    ]
     if near > far:
         says.append(
             f"Under first come, {arms} arms miss {near} objects with the bin where the objects "
@@ -208,7 +275,7 @@ def holds(line: Line, numbers: Any) -> list[str]:
 
 def slip(told: int, slips: Sequence[tuple[str, int]], otherwise: str) -> Fault:
     """Name every mistake that gives this number."""
-    names = [name for name, number in slips if number == told] or [otherwise]
+    names = list(dict.fromkeys(name for name, number in slips if number == told)) or [otherwise]
     first, *others = (WHY[name] for name in names)
     says = [first, *(f"Or: {why}" for why in others)]
     if others:
@@ -216,6 +283,17 @@ def slip(told: int, slips: Sequence[tuple[str, int]], otherwise: str) -> Fault:
     return " or ".join(names), " ".join(says)
 
 
+SPEED_WHY = {
+    "only the average": "At this speed, c v / g is 1, or a little less: you looked only at the "
+    "average, and unevenly spaced objects need a slower belt.",
+    "the speed of one stream": "So fast a belt suits one of your three streams. The arm must miss "
+    "none of all three.",
+    "the first speed with a miss": "Give the last speed without a miss, one step less.",
+    "the speed of all arms": "That is the speed for your `arms` arms. Find the speed for one arm.",
+    "the speed under first come": "That is the speed under first come.",
+    "the bin of the lab": "That is the speed with the bin of this lab.",
+    "the speed of the belt": "That is the speed of your belt. Find the speed for one arm.",
+}
 WHY = {
     "rounded down": "You rounded the bound down. So few arms do not have enough time for all "
     "the objects.",
@@ -229,8 +307,8 @@ WHY = {
     "streams by the rule back soonest, and add up what they miss.",
     "back soonest instead of first come": "So many are missed under back soonest. "
     "Call count_missed with first_come=True.",
-    "first come by another number of arms": "So many are missed by `least` arms under first come. "
-    "Give what `arms` arms miss.",
+    "first come by another number of arms": "So many are missed under first come by another "
+    "number of arms. Give what `arms` arms miss.",
     "first come, one stream of three": "That is what your arms miss of the first stream under "
     "first come. Add the other two.",
     "first come, taken for missed": "So many of the 600 objects are taken under first come. Give "
