@@ -289,7 +289,7 @@ def test_angle_to_compute_before_exercise_2_is_right():
 def test_folded_arm_is_nearer_to_the_base_than_a_lever():
     *q, far = numbers(
         r"Set `q_deg = \[(\d+), (\d+), (\d+)\]` in section 1: the arm folds, and K is (\S+) m from "
-        r"the base, nearer than \$L\$",
+        r"the base, less than \$L\$",
         flat("09", "folded-look"),
     )
     assert f"[{q[0]:.0f}, {q[1]:.0f}, {q[2]:.0f}]" in cells("09")["chain-code"]
