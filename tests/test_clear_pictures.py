@@ -28,7 +28,6 @@ from robokin import (
     turning_base,
 )
 from robokin.jobs.steppers import Stepper
-from robokin.jobs.visit_collect import Task
 from robokin.show import (
     animate,
     clearance_explorer,
@@ -39,7 +38,6 @@ from robokin.show import (
     paths_explorer,
     rotation_explorer,
     target_explorer,
-    tour_explorer,
 )
 from robokin.show.palette import PAGE
 
@@ -435,27 +433,6 @@ def test_no_part_of_a_ring_is_between_two_words(page, tmp_path, width):
     page.evaluate(NEXT)
     covered = page.evaluate("covered")
     assert len(covered) >= 3 and not any(pixels for _, pixels in covered), covered
-
-
-@pytest.mark.parametrize("end", ["min", "max"])
-@pytest.mark.parametrize("width", PHONE)
-def test_ring_far_from_its_point_has_a_line_to_it(page, tmp_path, width, end):
-    points = [[2.16, 3.37, 2], [1.81, -3.56, 2], [1.45, -3.73, 2], [1.07, -3.85, 2]]
-    task = Task(5, 4, T=7.5, speeds=[0.2] * 3, p0=[4, 0, 2], points=points, kind="visit")
-    shown(page, tour_explorer(task), tmp_path, width, end, "time", RINGS)
-    ends = page.evaluate(
-        """() => [...document.querySelectorAll(".rk-handle")].flatMap(node => {
-          const [own, after] = [getComputedStyle(node), getComputedStyle(node, "::after")];
-          const [x, y] = own.transform.match(/[^,(]+/g).slice(-2).map(parseFloat);
-          const [, a, b, , , e, f] = after.transform.match(/[^,(]+/g).map(parseFloat);
-          return Math.hypot(a, b) < 1 ? [] : [[x + e + a, y + f + b, Math.hypot(e, f)]];
-        })"""
-    )
-    spots = [spot[:2] for spot in page.evaluate("document.querySelector('canvas').spots")]
-    assert len(ends) >= 2
-    for x, y, begin in ends:
-        assert np.linalg.norm(np.subtract(spots, [x, y]), axis=-1).min() < 1.5
-        assert 12 < begin < 14, "the line begins in the ring"
 
 
 @pytest.mark.parametrize("width", [*PHONE, 914])

@@ -183,14 +183,17 @@ function button(handle, {camera, hold, changed}) {
  * @param {boolean} big  whether the buttons are large
  */
 function placed(handle, camera, taken, [width, height], big) {
-  const {node, name, at, value, shift} = handle,
+  const {node, name, look, at, value, shift} = handle,
     p = at(camera),
     place = camera.to(p),
-    [half, room] = big ? [22, 40] : [13, 25];
+    room = big ? 40 : 25,
+    radius = big ? 22 : 13,
+    // a double ring stands on its point, up to the margins of the scene
+    [half, low] = look === "rk-free" ? [8, MARGIN] : [radius, radius + SCALE_ROOM];
   /** @type {(place: Pixel) => Pixel} */
   const inside = ([x, y]) => [
     Math.min(Math.max(x, half), width - half),
-    Math.min(Math.max(y, half), height - half - SCALE_ROOM),
+    Math.min(Math.max(y, half), height - low),
   ];
   node.hidden = !p.every(Number.isFinite);
   /** @type {Pixel} */
@@ -212,7 +215,8 @@ function placed(handle, camera, taken, [width, height], big) {
   return /** @type {Pixel} */ ([x, y]);
 }
 
-const SCALE_ROOM = 20; // px: the scale of the grid stands below all handles
+const SCALE_ROOM = 20; // px: the scale of the grid stands below all handles but double rings
+const MARGIN = 26; // px: the margin of a scene at its lower edge
 const LED = 16; // px: a button this far from its place has a line to it
 const TAP = 4; // px: a pointer movement shorter than this counts as a tap
 /** @type {Object<string, [number, number]>} */
