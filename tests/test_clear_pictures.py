@@ -5,7 +5,7 @@ all sliders at their ends. `test_fit.py` tests this for the words of whole labs.
 import numpy as np
 import pytest
 import test_player
-from canvas_words import COVERED, LINES, MOVE, NEXT, RECORD, faults
+from canvas_words import COVERED, LINES, NEXT, RECORD, faults
 from conftest import awake
 
 from robokin import (
@@ -329,37 +329,6 @@ def length(line):
     """The length of a line with two points in px."""
     points = np.reshape(line["points"], (-1, 2))
     return round(float(np.linalg.norm(np.diff(points, axis=0))))
-
-
-@pytest.mark.parametrize("width", [PHONE[0], 914])
-def test_letter_of_an_axis_is_beyond_its_end(page, tmp_path, width):
-    """It is left out if there is no room: a letter elsewhere would name another line."""
-    shown(page, joint_explorer(IRB140), tmp_path, width, "min", "none", RECORD, LINES)
-    axes = {PAGE[name][0].lower(): name for name in "xyz"}
-    letters = 0
-    for place in range(12):
-        page.evaluate(MOVE, [place, 12])
-        page.evaluate(NEXT)
-        lines = page.evaluate("document.querySelector('canvas').lines")
-        ends = [
-            (axes[line["color"]], *np.array(line["points"], float))
-            for line in lines
-            if line["color"] in axes and line["width"] != 1.4 and len(line["points"]) == 2
-        ]
-        assert len(ends) > 3
-        for word in page.evaluate("canvasWords()[0].words"):
-            if word["text"] not in ("x", "y", "z") or word["size"] < 11:
-                continue
-            letters += 1
-            left, top, wide, high = word["box"]
-            centre = np.array([left + wide / 2, top + high / 2])
-            assert any(
-                name == word["text"]
-                and np.linalg.norm(centre - end) < 28
-                and (centre - end) @ (end - begin) > 0
-                for name, begin, end in ends
-            ), (place, word)
-    assert letters > 12
 
 
 def test_unit_on_the_right_is_beside_the_name_of_the_panel(page, tmp_path):

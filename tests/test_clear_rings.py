@@ -1,4 +1,4 @@
-"""A ring away from its point has a line to it that can be seen, and the ring of a target is on it."""
+"""A ring away from its point has a visible line to it; the ring of a target is on the target."""
 
 import numpy as np
 import pytest

@@ -104,7 +104,7 @@ export function handleLayer(canvas, camera, hold, changed) {
       for (const handle of first)
         taken.push(placed(handle, cam, handle.id === held ? null : taken, [width, height], big));
       for (const {node, tell} of handles) tell?.(layer, node.matches(":focus"));
-      const size = big ? 44 : 26;
+      const size = big ? 32 : 26; // as drawn
       return seen
         .map(handle => taken[first.indexOf(handle)])
         .map(([x, y]) => [x - size / 2, y - size / 2, size, size]);

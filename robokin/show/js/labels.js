@@ -1,7 +1,7 @@
 // Words on a canvas: each label takes the first free place around its point, so that it hides
 // nothing that is drawn there.
 
-import {WORD, colors, font, ink, stroke, wordInk, write} from "./canvas.js";
+import {WORD, colors, font, hit, ink, stroke, wordInk, write} from "./canvas.js";
 
 /** @import {Box, Context, Ink, Pixel} from "./canvas.js" */
 
@@ -15,20 +15,21 @@ import {WORD, colors, font, ink, stroke, wordInk, write} from "./canvas.js";
  * @property {Pixel} [away]  the preferred direction from its point; without it, the label prefers
  *   the upper right, and a distant label has a line to its point
  * @property {boolean} [near]  whether to leave it out if there is no free place close to its point
- * @property {boolean} [tip]  whether it names the end of a line: it is beyond this end, or left out
+ * @property {Pixel} [tip]  the other end of the line at whose end it stands: it is beyond this end
+ *   and nearer to this line than to that of another label with `tip`, or left out
  */
 
 /** @typedef {{x: number, y: number, r: number, heavy: number}} Dot  a part of the ink */
 
 const GAPS = [5, 14, 26, 40, 58, 84], // px between a point and its label
+  TIPS = [5, 9, 13, 17, 21, 25], // the same for a label with `tip`
+  CLOSE = [5, 14], // the same for a label with `near`
+  NEAR = 26, // px: the largest gap without a line
   TURNS = 12, // the number of directions
-  NEAR = 3 * TURNS, // the number of places without a line
   HIGH = 16, // px: the height of a label
   REACH = 40, // px: the directions of the base, and letters beside them, are this near their centre
   CROSSED = 8, // the cost of a line that goes through words: less than to cover a link
-  TIP = 2 * TURNS, // the number of places of a label with `tip` or `near`
-  MOST = 40, // the cost above which a label with `near` is left out
-  TIPS = 12; // the same for a label with `tip`
+  MOST = 40; // the cost at which a label with `near` or `tip` is left out
 
 /**
  * Writes the labels of a picture, after everything else is drawn in it. The places depend only on
@@ -38,63 +39,95 @@ const GAPS = [5, 14, 26, 40, 58, 84], // px between a point and its label
  * @param {Box} room
  * @param {Box[]} [handles]  the boxes of the handles, which no label covers
  */
-export function placeLabels(g, labels, [left, top, width, height], handles = []) {
+export function placeLabels(g, labels, room, handles = []) {
   ink.push(...handles.map(wordInk));
   /** @type {Dot[]} */
   const dots = [];
   let marked = 0; // the number of lines in `ink` whose dots are known
-  for (const {text, at, along, color, weight, away, near, tip} of labels) {
+  for (const label of labels) {
     while (marked < ink.length) mark(dots, ink[marked++]);
+    const {text, color, weight, at, tip} = label;
     g.font = font(12, weight);
     const wide = g.measureText(text).width + 4,
-      [ax, ay] = away ?? [0.5, -0.5],
-      [x, y] = along ? freest(along) : at,
-      [px, py] = [between(x, left, width), between(y, top, height)],
-      close = dots.filter(
-        ({x, y, r}) => Math.abs(x - px) < wide + r + 90 && Math.abs(y - py) < r + 110,
-      );
-    let [least, bestX, bestY, place] = [Infinity, 0, 0, 0];
-    for (let k = 0; k < (tip || near ? TIP : GAPS.length * TURNS); k++) {
-      const gap = GAPS[Math.floor(k / TURNS)],
-        turn = (2 * Math.PI * k) / TURNS,
-        [c, s] = [Math.cos(turn), -Math.sin(turn)],
-        u = px + c * (gap + wide / 2) - wide / 2,
-        v = py + s * (gap + HIGH / 2) - HIGH / 2;
-      if (tip && 2 * (ax * c + ay * s) < Math.hypot(ax, ay)) continue; // by more than 60°
-      let cost = gap / 6 + 1 - ax * c - ay * s;
-      if (u !== between(u, left, width - wide) || v !== between(v, top, height - HIGH))
-        cost += 5 * WORD;
-      if (cost >= least) continue;
-      // dots are objects, not arrays, since this loop takes most of the time
-      for (const {x, y, r, heavy} of close) {
-        if (x > u - r && x < u + wide + r && y > v - r && y < v + HIGH + r) cost += heavy;
-        if (cost >= least) break;
-      }
-      if (k >= NEAR && !away && crossed(close, px, py, ...line(px, py, u, v, wide)))
-        cost += CROSSED;
-      if (cost < least) [least, bestX, bestY, place] = [cost, u, v, k];
-    }
-    if (least > (tip ? TIPS : near ? MOST : Infinity)) continue;
-    if (place >= NEAR && !away) {
-      const [dx, dy] = line(px, py, bestX, bestY, wide),
-        gap = 6 / Math.hypot(dx, dy); // the line does not reach the dot at the point
-      stroke(
-        g,
-        [
-          [px + dx, py + dy],
-          [px + gap * dx, py + gap * dy],
-        ],
-        color,
-        1,
-      );
-    }
+      found = placed(label, labels, dots, wide, room);
+    // the letter of an axis below handles would seem to belong to another
+    if (!found || (tip && [at, tip].every(([x, y]) => hit([x - 4, y - 4, 8, 8], handles))))
+      continue;
+    const [x, y, led] = found;
+    if (led) stroke(g, led, color, 1);
     if (color === colors.alarm) {
       // else the red ring of a joint would show between two words
       g.fillStyle = colors.paper;
-      g.fillRect(bestX, bestY, wide, HIGH - 1);
+      g.fillRect(x, y, wide, HIGH - 1);
     }
-    write(g, text, bestX + 2, bestY + 12, color, 12, "left", weight);
+    write(g, text, x + 2, y + 12, color, 12, "left", weight);
   }
+}
+
+/**
+ * The upper left corner of a label, and the line to its point if it needs one; null if it is left
+ * out.
+ * @param {Label} label
+ * @param {Label[]} labels  all labels
+ * @param {Dot[]} dots
+ * @param {number} wide
+ * @param {Box} room
+ * @returns {?[number, number, ?Pixel[]]}
+ */
+function placed(
+  {text, at, along, away, near, tip},
+  labels,
+  dots,
+  wide,
+  [left, top, width, height],
+) {
+  const [ax, ay] = away ?? [0.5, -0.5],
+    point = along ? freest(along) : at,
+    [px, py] = [between(point[0], left, width), between(point[1], top, height)],
+    close = dots.filter(({x, y, r}) => Math.hypot(x - px, y - py) < r + wide + 110);
+  /** @type {?[number, number, ?Pixel[]]} */
+  let best = null;
+  let least = tip || near ? MOST : Infinity;
+  for (const gap of tip ? TIPS : near ? CLOSE : GAPS)
+    for (let k = 0; k < TURNS; k++) {
+      const turn = (2 * Math.PI * k) / TURNS,
+        [c, s] = [Math.cos(turn), -Math.sin(turn)],
+        u = between(px + c * (gap + wide / 2) - wide / 2, left, width - wide),
+        v = between(py + s * (gap + HIGH / 2) - HIGH / 2, top, height - HIGH);
+      if (tip) {
+        const [x, y] = [u + wide / 2, v + HIGH / 2],
+          own = far(x, y, at, tip) + 3;
+        if (ax * (x - px) + ay * (y - py) < own) continue; // by more than 70°
+        if (labels.some(one => one.tip && one.text !== text && far(x, y, one.at, one.tip) < own))
+          continue;
+      }
+      let cost = gap / 6 + 1 - ax * c - ay * s;
+      // dots are objects, not arrays, since this loop takes most of the time
+      for (const {x, y, r, heavy} of close) {
+        if (cost >= least) break;
+        if (x > u - r && x < u + wide + r && y > v - r && y < v + HIGH + r) cost += heavy;
+      }
+      if (cost >= least) continue;
+      /** @type {?Pixel[]} */
+      let led = null;
+      if (gap > NEAR && !away) {
+        const [ex, ey] = [between(px, u, wide), between(py, v, HIGH)],
+          share = 6 / Math.hypot(ex - px, ey - py); // it does not reach the dot at the point
+        led = [
+          [ex, ey],
+          [px + share * (ex - px), py + share * (ey - py)],
+        ];
+        if (
+          close.some(
+            ({x, y, r, heavy}) =>
+              heavy === WORD && Math.hypot(x - px, y - py) > r && far(x, y, [ex, ey], [px, py]) < r,
+          )
+        )
+          cost += CROSSED;
+      }
+      if (cost < least) [least, best] = [cost, [u, v, led]];
+    }
+  return best;
 }
 
 /**
@@ -115,22 +148,14 @@ export function freest(places) {
 }
 
 /**
- * The line from a point to a label whose upper left corner is (u, v).
- * @type {(px: number, py: number, u: number, v: number, wide: number) => Pixel}
+ * The distance of a place from a line.
+ * @type {(x: number, y: number, from: Pixel, to: Pixel) => number}
  */
-const line = (px, py, u, v, wide) => [between(px, u, wide) - px, between(py, v, HIGH) - py];
-
-/**
- * Whether a line from a point goes through words, beyond what is at the point itself.
- * @type {(dots: Dot[], px: number, py: number, dx: number, dy: number) => boolean}
- */
-const crossed = (dots, px, py, dx, dy) =>
-  dots.some(({x, y, r, heavy}) => {
-    const share = ((x - px) * dx + (y - py) * dy) / (dx * dx + dy * dy);
-    const aside = Math.hypot(x - px - share * dx, y - py - share * dy),
-      beyond = share > 0 && share < 1 && Math.hypot(x - px, y - py) > r;
-    return heavy === WORD && beyond && aside < r;
-  });
+const far = (x, y, [px, py], [qx, qy]) => {
+  const [dx, dy] = [qx - px, qy - py],
+    share = between(((x - px) * dx + (y - py) * dy) / (dx * dx + dy * dy), 0, 1);
+  return Math.hypot(x - px - share * dx, y - py - share * dy);
+};
 
 /** @type {(x: number, low: number, size: number) => number} */
 const between = (x, low, size) => Math.max(low, Math.min(low + size, x));

@@ -24,7 +24,7 @@ export const target = {
   above({g, cam, scene, near}, targets, labels) {
     for (const {name, pose} of targets) {
       const from = cam.to(origin(pose));
-      triad(g, cam, pose, 0.09 * scene.size, 1.8, 0.95);
+      triad(g, cam, pose, 0.09 * scene.size, 1.8);
       spot(g, from, 2.6, colors.path, colors.paper, 1);
       labels.push({text: name, at: from, color: colors.ink, weight: "600"});
     }
