@@ -22,7 +22,7 @@ import {WORD, colors, font, hit, ink, stroke, wordInk, write} from "./canvas.js"
 /** @typedef {{x: number, y: number, r: number, heavy: number}} Dot  a part of the ink */
 
 const GAPS = [5, 14, 26, 40, 58, 84], // px between a point and its label
-  TIPS = [5, 9, 13, 17, 21, 25], // the same for a label with `tip`
+  TIPS = [5, 10, 15, 20, 25], // the same for a label with `tip`
   CLOSE = [5, 14], // the same for a label with `near`
   NEAR = 26, // px: the largest gap without a line
   TURNS = 12, // the number of directions
@@ -47,6 +47,7 @@ export function placeLabels(g, labels, room, handles = []) {
   for (const label of labels) {
     while (marked < ink.length) mark(dots, ink[marked++]);
     const {text, color, weight, at, tip} = label;
+    if (labels.find(one => one.text + one.at === text + at) !== label) continue;
     g.font = font(12, weight);
     const wide = g.measureText(text).width + 4,
       found = placed(label, labels, dots, wide, room);
@@ -82,23 +83,24 @@ function placed(
   [left, top, width, height],
 ) {
   const [ax, ay] = away ?? [0.5, -0.5],
-    point = along ? freest(along) : at,
-    [px, py] = [between(point[0], left, width), between(point[1], top, height)],
+    [x, y] = along ? freest(along) : at,
+    [px, py] = [between(x, left, width), between(y, top, height)],
     close = dots.filter(({x, y, r}) => Math.hypot(x - px, y - py) < r + wide + 110);
   /** @type {?[number, number, ?Pixel[]]} */
   let best = null;
   let least = tip || near ? MOST : Infinity;
   for (const gap of tip ? TIPS : near ? CLOSE : GAPS)
     for (let k = 0; k < TURNS; k++) {
-      const turn = (2 * Math.PI * k) / TURNS,
-        [c, s] = [Math.cos(turn), -Math.sin(turn)],
+      const [c, s] = [Math.cos, Math.sin].map(part => part((-2 * Math.PI * k) / TURNS)),
         u = between(px + c * (gap + wide / 2) - wide / 2, left, width - wide),
         v = between(py + s * (gap + HIGH / 2) - HIGH / 2, top, height - HIGH);
       if (tip) {
         const [x, y] = [u + wide / 2, v + HIGH / 2],
           own = far(x, y, at, tip) + 3;
-        if (ax * (x - px) + ay * (y - py) < own) continue; // by more than 70°
-        if (labels.some(one => one.tip && one.text !== text && far(x, y, one.at, one.tip) < own))
+        if (
+          ax * (x - px) + ay * (y - py) < own || // by more than 70° aside
+          labels.some(one => one.tip && one.text !== text && far(x, y, one.at, one.tip) < own)
+        )
           continue;
       }
       let cost = gap / 6 + 1 - ax * c - ay * s;
@@ -107,10 +109,9 @@ function placed(
         if (cost >= least) break;
         if (x > u - r && x < u + wide + r && y > v - r && y < v + HIGH + r) cost += heavy;
       }
-      if (cost >= least) continue;
       /** @type {?Pixel[]} */
       let led = null;
-      if (gap > NEAR && !away) {
+      if (cost < least && gap > NEAR && !away) {
         const [ex, ey] = [between(px, u, wide), between(py, v, HIGH)],
           share = 6 / Math.hypot(ex - px, ey - py); // it does not reach the dot at the point
         led = [
@@ -125,7 +126,7 @@ function placed(
         )
           cost += CROSSED;
       }
-      if (cost < least) [least, best] = [cost, [u, v, led]];
+      if (cost < least) [best, least] = [[u, v, led], cost];
     }
   return best;
 }

@@ -20,7 +20,7 @@ import {placeLabels} from "./labels.js";
 import {compass} from "./triad.js";
 
 /** @import {PageLink, PageScene, PageThing, Unit} from "./page.js" */
-/** @import {Box, Context, Pixel, Point} from "./canvas.js" */
+/** @import {Box, Context, Point} from "./canvas.js" */
 /** @import {Camera} from "./camera.js" */
 /** @import {Label} from "./labels.js" */
 /** @import {Now} from "./recordings.js" */
@@ -114,11 +114,10 @@ export function sceneView(canvas, scene) {
     const [columns, rows] = arranged(scene, space, pictures.length, w, h),
       cw = w / columns,
       ch = h / rows,
-      many = pictures.length > 1;
+      many = pictures.length > 1; // several pictures have names and rows at the top
     const edge = () => {
       const {grid, unit} = scene,
         scale = `grid ${+(grid / unit.size).toPrecision(6)} ${unit.name}`;
-      // several pictures have names and rows at the top
       const row = many ? clock : arms.length > 1 ? "" : arms[0].row || "";
       g.font = font(12);
       const [wide, more] = [scale, row].map(text => g.measureText(text).width + 16);
@@ -131,9 +130,8 @@ export function sceneView(canvas, scene) {
     cameras = pictures.map((shown, i) => {
       /** @type {Box} */
       const cell = [(i % columns) * cw, Math.floor(i / columns) * ch, cw, ch];
-      const box = inside(cell);
       /** @type {(points: Point[]) => Camera} */
-      const fit = points => camera(view, [...space.corners, ...points], box);
+      const fit = points => camera(view, [...space.corners, ...points], inside(cell));
       const cam = (held && cameras[i]) || fit(scene.grows ? reached(scene, shown[0], fit([])) : []);
       drawSpace({g, cam, scene, space}, shown, cell, many ? null : edge);
       return cam;
@@ -279,9 +277,13 @@ function drawSpace(pen, arms, cell, edge) {
     else write(g, row, x + 10, y + 34);
   }
   if (arms.some(arm => arm.faded)) {
-    const at = /** @type {Pixel} */ ([x + w / 2, y + 24]),
-      {nowhere: text = "no solution"} = first;
-    labels.push({text, at, color: colors.alarm, weight: "600", away: [0, 1]});
+    labels.push({
+      text: first.nowhere ?? "no solution",
+      at: [x + w / 2, y + 24],
+      color: colors.alarm,
+      weight: "600",
+      away: [0, 1],
+    });
   }
   for (const {cam, labels: own = []} of all)
     for (const label of own) labels.push({weight: "600", ...label, at: cam.to(label.at)});

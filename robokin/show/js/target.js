@@ -13,9 +13,9 @@ export const target = {
   seen: ({pose}) => [origin(pose)],
   /** Draws the straight route between targets that are stations of a path. */
   below({g, cam}, targets) {
-    const stations = ["start", "via", "goal"]
-      .map(name => targets.find(each => each.name === name))
-      .filter(each => each !== undefined);
+    const stations = ["start", "via", "goal"].flatMap(name =>
+      targets.filter(each => each.name === name),
+    );
     if (stations.length < 2) return;
     const route = stations.map(({pose}) => cam.to(origin(pose)));
     stroke(g, route, clear(colors.soft, 0.55), 1, [7, 5]);

@@ -30,7 +30,7 @@ export function triad(g, cam, pose, length, width) {
     const tip = cam.to(plus(p, way, length)),
       [dx, dy] = [tip[0] - from[0], tip[1] - from[1]],
       long = Math.hypot(dx, dy),
-      away = /** @type {Pixel} */ ([(3 * dx) / long, (3 * dy) / long]);
+      away = /** @type {Pixel} */ ([dx, dy].map(d => (3 * d) / long));
     stroke(g, [from, tip], colors.paper, width + 2);
     stroke(g, [from, tip], colors[name], width);
     if (long <= 0.35 * length * cam.scale) return [];
