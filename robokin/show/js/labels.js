@@ -96,7 +96,7 @@ function placed(
         v = between(py + s * (gap + HIGH / 2) - HIGH / 2, top, height - HIGH);
       if (tip) {
         const [x, y] = [u + wide / 2, v + HIGH / 2],
-          own = far(x, y, at, tip) + 3;
+          own = far(x, y, at, tip) + 0.4;
         if (
           ax * (x - px) + ay * (y - py) < own || // by more than 70° aside
           labels.some(one => one.tip && one.text !== text && far(x, y, one.at, one.tip) < own)
