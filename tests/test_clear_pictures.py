@@ -5,7 +5,7 @@ all sliders at their ends. `test_fit.py` tests this for the words of whole labs.
 import numpy as np
 import pytest
 import test_player
-from canvas_words import COVERED, LINES, MOVE, NEXT, RECORD, faults
+from canvas_words import COVERED, LINES, NEXT, RECORD, faults
 from conftest import awake
 
 from robokin import (
@@ -27,7 +27,6 @@ from robokin import (
     turning_base,
 )
 from robokin.jobs.steppers import Stepper
-from robokin.jobs.visit_collect import Task
 from robokin.show import (
     animate,
     clearance_explorer,
@@ -37,7 +36,6 @@ from robokin.show import (
     movement_explorer,
     paths_explorer,
     rotation_explorer,
-    tour_explorer,
 )
 from robokin.show.palette import PAGE
 
@@ -331,37 +329,6 @@ def length(line):
     return round(float(np.linalg.norm(np.diff(points, axis=0))))
 
 
-@pytest.mark.parametrize("width", [PHONE[0], 914])
-def test_letter_of_an_axis_is_beyond_its_end(page, tmp_path, width):
-    """It is left out if there is no room: a letter elsewhere would name another line."""
-    shown(page, joint_explorer(IRB140), tmp_path, width, "min", "none", RECORD, LINES)
-    axes = {PAGE[name][0].lower(): name for name in "xyz"}
-    letters = 0
-    for place in range(12):
-        page.evaluate(MOVE, [place, 12])
-        page.evaluate(NEXT)
-        lines = page.evaluate("document.querySelector('canvas').lines")
-        ends = [
-            (axes[line["color"]], *np.array(line["points"], float))
-            for line in lines
-            if line["color"] in axes and line["width"] != 1.4 and len(line["points"]) == 2
-        ]
-        assert len(ends) > 3
-        for word in page.evaluate("canvasWords()[0].words"):
-            if word["text"] not in ("x", "y", "z") or word["size"] < 11:
-                continue
-            letters += 1
-            left, top, wide, high = word["box"]
-            centre = np.array([left + wide / 2, top + high / 2])
-            assert any(
-                name == word["text"]
-                and np.linalg.norm(centre - end) < 28
-                and (centre - end) @ (end - begin) > 0
-                for name, begin, end in ends
-            ), (place, word)
-    assert letters > 12
-
-
 def test_unit_on_the_right_is_beside_the_name_of_the_panel(page, tmp_path):
     t = np.linspace(0, 2, 41)
     goal = np.array([60 * deg, 90 * deg, 0, 0.1])
@@ -409,27 +376,6 @@ def test_no_part_of_a_ring_is_between_two_words(page, tmp_path, width):
     page.evaluate(NEXT)
     covered = page.evaluate("covered")
     assert len(covered) >= 3 and not any(pixels for _, pixels in covered), covered
-
-
-@pytest.mark.parametrize("end", ["min", "max"])
-@pytest.mark.parametrize("width", PHONE)
-def test_ring_far_from_its_point_has_a_line_to_it(page, tmp_path, width, end):
-    points = [[2.16, 3.37, 2], [1.81, -3.56, 2], [1.45, -3.73, 2], [1.07, -3.85, 2]]
-    task = Task(5, 4, T=7.5, speeds=[0.2] * 3, p0=[4, 0, 2], points=points, kind="visit")
-    shown(page, tour_explorer(task), tmp_path, width, end, "time", RINGS)
-    ends = page.evaluate(
-        """() => [...document.querySelectorAll(".rk-handle")].flatMap(node => {
-          const [own, after] = [getComputedStyle(node), getComputedStyle(node, "::after")];
-          const [x, y] = own.transform.match(/[^,(]+/g).slice(-2).map(parseFloat);
-          const [, a, b, , , e, f] = after.transform.match(/[^,(]+/g).map(parseFloat);
-          return Math.hypot(a, b) < 1 ? [] : [[x + e + a, y + f + b, Math.hypot(e, f)]];
-        })"""
-    )
-    spots = [spot[:2] for spot in page.evaluate("document.querySelector('canvas').spots")]
-    assert len(ends) >= 2
-    for x, y, begin in ends:
-        assert np.linalg.norm(np.subtract(spots, [x, y]), axis=-1).min() < 1.5
-        assert 12 < begin < 14, "the line begins in the ring"
 
 
 @pytest.mark.parametrize("width", [*PHONE, 914])

@@ -90,7 +90,7 @@ export function drawStood(one) {
   if (one.dips) drawRods({...one, rods: rods.flatMap(raised)}, 0);
   else drawRods(one);
   g.globalAlpha = one.faded ? 0.3 : 1;
-  if (one.framed) for (const frame of one.all) triad(g, cam, frame, 0.08 * scene.size, 1.8, 1);
+  if (one.framed) for (const frame of one.all) triad(g, cam, frame, 0.08 * scene.size, 1.8);
   g.globalAlpha = 1;
   if (tail.length > 1) {
     stroke(
@@ -125,7 +125,7 @@ export function drawFlange({g, cam, scene, faded, all, exists}) {
   if (!exists) return [];
   g.globalAlpha = faded ? 0.4 : 1;
   const flange = all[all.length - 1];
-  const letters = apart(scene) ? [] : triad(g, cam, flange, TRIAD * scene.size, 3, 1);
+  const letters = apart(scene) ? [] : triad(g, cam, flange, TRIAD * scene.size, 3);
   spot(g, cam.to(origin(flange)), 3.6, colors.hub, colors.path, 1.8);
   g.globalAlpha = 1;
   return letters;

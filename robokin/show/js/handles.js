@@ -104,7 +104,7 @@ export function handleLayer(canvas, camera, hold, changed) {
       for (const handle of first)
         taken.push(placed(handle, cam, handle.id === held ? null : taken, [width, height], big));
       for (const {node, tell} of handles) tell?.(layer, node.matches(":focus"));
-      const size = big ? 44 : 26;
+      const size = big ? 32 : 26; // as drawn
       return seen
         .map(handle => taken[first.indexOf(handle)])
         .map(([x, y]) => [x - size / 2, y - size / 2, size, size]);
@@ -183,10 +183,13 @@ function button(handle, {camera, hold, changed}) {
  * @param {boolean} big  whether the buttons are large
  */
 function placed(handle, camera, taken, [width, height], big) {
-  const {node, name, at, value, shift} = handle,
+  const {node, name, look, at, value, shift} = handle,
     p = at(camera),
     place = camera.to(p),
-    [half, room] = big ? [22, 40] : [13, 25];
+    [px, py] = place,
+    radius = big ? 22 : 13,
+    room = big ? 40 : 25,
+    half = look === "rk-free" ? 6 : radius; // a double ring stands on its point
   /** @type {(place: Pixel) => Pixel} */
   const inside = ([x, y]) => [
     Math.min(Math.max(x, half), width - half),
@@ -194,16 +197,14 @@ function placed(handle, camera, taken, [width, height], big) {
   ];
   node.hidden = !p.every(Number.isFinite);
   /** @type {Pixel} */
-  const [x, y] = taken
-    ? apart(place, taken, room, inside)
-    : [place[0] + shift[0], place[1] + shift[1]];
-  handle.shift = [x - place[0], y - place[1]];
+  const [x, y] = taken ? apart(place, taken, room, inside) : [px + shift[0], py + shift[1]];
+  handle.shift = [x - px, y - py];
   const [left, top] = inside([x, y]);
-  const seen = place[0] > 0 && place[0] < width && place[1] > 0 && place[1] < height;
+  const seen = px > 0 && px < width && py > 0 && py < height;
   node.classList.toggle("rk-outside", !seen);
   node.style.transform = `translate(${left.toFixed(1)}px, ${top.toFixed(1)}px)`;
   // a line leads to the place from a button that is too far from it
-  const [dx, dy] = [place[0] - left, place[1] - top],
+  const [dx, dy] = [px - left, py - top],
     far = Math.hypot(dx, dy),
     turn = `rotate(${Math.atan2(dy, dx)}rad) translate(13px)`;
   node.style.setProperty("--led", `${turn} scaleX(${seen && far > LED ? far - 13 : 0})`);
@@ -228,14 +229,13 @@ const STEPS = {ArrowLeft: [-1, 0], ArrowRight: [1, 0], ArrowUp: [0, 1], ArrowDow
  */
 function apart(place, taken, room, inside) {
   /** @type {(place: Pixel) => Pixel | undefined} */
-  const nearTo = ([x, y]) =>
-    taken.find(([a, b]) => (x - a) ** 2 + (y - b) ** 2 < 0.98 * room * room);
+  const nearTo = ([x, y]) => taken.find(([a, b]) => Math.hypot(x - a, y - b) < 0.99 * room);
   let [x, y] = inside(place);
   for (let i = 0; i < 8; i++) {
     const near = nearTo([x, y]);
     if (!near) return [x, y];
     const [dx, dy] = [x - near[0] || 1, y - near[1] || i - 3],
-      length = Math.sqrt(dx * dx + dy * dy);
+      length = Math.hypot(dx, dy);
     [x, y] = inside([near[0] + (room * dx) / length, near[1] + (room * dy) / length]);
   }
   // in a corner of the scene, the edges push the handle back, so it takes the nearest free place

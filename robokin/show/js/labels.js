@@ -1,7 +1,7 @@
 // Words on a canvas: each label takes the first free place around its point, so that it hides
 // nothing that is drawn there.
 
-import {WORD, colors, font, ink, stroke, wordInk, write} from "./canvas.js";
+import {WORD, colors, font, hit, ink, stroke, wordInk, write} from "./canvas.js";
 
 /** @import {Box, Context, Ink, Pixel} from "./canvas.js" */
 
@@ -16,21 +16,22 @@ import {WORD, colors, font, ink, stroke, wordInk, write} from "./canvas.js";
  * @property {Pixel} [away]  the preferred direction from its point; without it, the label prefers
  *   the upper right, and a distant label has a line to its point
  * @property {boolean} [near]  whether to leave it out if there is no free place close to its point
- * @property {boolean} [tip]  whether it names the end of a line: it is beyond this end, or left out
+ * @property {Pixel} [tip]  the other end of the line at whose end it stands: it is beyond this end
+ *   and nearer to this line than to that of another label with `tip`, or left out
  */
 
 /** @typedef {{x: number, y: number, r: number, heavy: number}} Dot  a part of the ink */
 
 const GAPS = [5, 14, 26, 40, 58, 84], // px between a point and its label
+  TIPS = [5, 10, 15, 20, 25], // the same for a label with `tip`
+  CLOSE = [5, 14], // the same for a label with `near`
+  NEAR = 26, // px: the largest gap without a line
   TURNS = 12, // the number of directions
-  NEAR = 3 * TURNS, // the number of places without a line
   HIGH = 16, // px: the height of a label
   REACH = 40, // px: the directions of the base, and letters beside them, are this near their centre
   APART = 28, // px: twice the distance of a label from the lines of others
   CROSSED = 8, // the cost of a line that goes through words: less than to cover a link
-  TIP = 2 * TURNS, // the number of places of a label with `tip` or `near`
-  MOST = 40, // the cost above which a label with `near` is left out
-  TIPS = 12; // the same for a label with `tip`
+  MOST = 40; // the cost at which a label with `near` or `tip` is left out
 
 /**
  * Writes the labels of a picture, after everything else is drawn in it. The places depend only on
@@ -40,55 +41,112 @@ const GAPS = [5, 14, 26, 40, 58, 84], // px between a point and its label
  * @param {Box} room
  * @param {Box[]} [handles]  the boxes of the handles, which no label covers
  */
-export function placeLabels(g, labels, [left, top, width, height], handles = []) {
+export function placeLabels(g, labels, room, handles = []) {
   ink.push(...handles.map(wordInk));
   /** @type {Dot[]} */
   const dots = [];
   let marked = 0; // the number of lines in `ink` whose dots are known
-  for (const {text, at, along = [at], apart = [], color, weight, away, near, tip} of labels) {
+  for (const label of labels) {
     while (marked < ink.length) mark(dots, ink[marked++]);
+    const {text, color, weight, at, tip} = label;
+    if (labels.find(one => one.text + one.at === text + at) !== label) continue;
     g.font = font(12, weight);
     const wide = g.measureText(text).width + 4,
-      [ax, ay] = away ?? [0.5, -0.5],
-      led = apart.length ? TIP : away ? Infinity : NEAR;
-    let [least, bestX, bestY, place, fromX, fromY] = [Infinity, 0, 0, 0, 0, 0];
-    for (const [x, y] of along) {
-      const [px, py] = [between(x, left, width), between(y, top, height)],
-        close = dots.filter(({x, y, r}) => Math.hypot(x - px, y - py) < wide + r + 110);
-      for (const each of apart) {
-        mark(close, [[each], APART, WORD]);
-        mark(close, [[each], 4 * APART, 0.1]);
-      }
-      for (let k = 0; k < (tip || near ? TIP : GAPS.length * TURNS); k++) {
-        const gap = GAPS[Math.floor(k / TURNS)],
-          turn = (2 * Math.PI * k) / TURNS,
-          [c, s] = [Math.cos(turn), -Math.sin(turn)],
-          u = px + c * (gap + wide / 2) - wide / 2,
-          v = py + s * (gap + HIGH / 2) - HIGH / 2;
-        if (tip && 2 * (ax * c + ay * s) < Math.hypot(ax, ay)) continue; // by more than 60°
-        let cost = gap / 6 + 1 - ax * c - ay * s;
-        if (u !== between(u, left, width - wide) || v !== between(v, top, height - HIGH))
-          cost += 5 * WORD;
-        if (cost >= least) continue;
-        // dots are objects, not arrays, since this loop takes most of the time
-        for (const {x, y, r, heavy} of close) {
-          if (x > u - r && x < u + wide + r && y > v - r && y < v + HIGH + r) cost += heavy;
-          if (cost >= least) break;
-        }
-        if (k >= led && crossed(close, px, py, ...line(px, py, u, v, wide))) cost += CROSSED;
-        if (cost < least) [least, bestX, bestY, place, fromX, fromY] = [cost, u, v, k, px, py];
-      }
-    }
-    if (least > (tip ? TIPS : near ? MOST : Infinity)) continue;
-    if (place >= led) lead(g, [fromX, fromY], line(fromX, fromY, bestX, bestY, wide), color);
+      found = placed(label, labels, dots, wide, room);
+    // the letter of an axis below handles would seem to belong to another
+    if (!found || (tip && [at, tip].every(([x, y]) => hit([x - 4, y - 4, 8, 8], handles))))
+      continue;
+    const [x, y, led] = found;
+    if (led) stroke(g, led, color, 1);
     if (color === colors.alarm) {
       // else the red ring of a joint would show between two words
       g.fillStyle = colors.paper;
-      g.fillRect(bestX, bestY, wide, HIGH - 1);
+      g.fillRect(x, y, wide, HIGH - 1);
     }
-    write(g, text, bestX + 2, bestY + 12, color, 12, "left", weight);
+    write(g, text, x + 2, y + 12, color, 12, "left", weight);
   }
 }
+
+/**
+ * The upper left corner of a label, and the line to its point if it needs one; null if it is left
+ * out.
+ * @param {Label} label
+ * @param {Label[]} labels  all labels
+ * @param {Dot[]} dots
+ * @param {number} wide
+ * @param {Box} room
+ * @returns {?[number, number, ?Pixel[]]}
+ */
+function placed(
+  {text, at, along = [at], apart = [], away, near, tip},
+  labels,
+  dots,
+  wide,
+  [left, top, width, height],
+) {
+  const [ax, ay] = away ?? [0.5, -0.5],
+    unled = apart.length ? CLOSE[1] : away ? Infinity : NEAR; // px: the largest gap without a line
+  /** @type {?[number, number, ?Pixel[]]} */
+  let best = null;
+  let least = tip || near ? MOST : Infinity;
+  for (const [ox, oy] of along) {
+    const [px, py] = [between(ox, left, width), between(oy, top, height)],
+      close = dots.filter(({x, y, r}) => Math.hypot(x - px, y - py) < r + wide + 110);
+    for (const each of apart) {
+      mark(close, [[each], APART, WORD]);
+      mark(close, [[each], 4 * APART, 0.1]);
+    }
+    for (const gap of tip ? TIPS : near ? CLOSE : GAPS)
+      for (let k = 0; k < TURNS; k++) {
+        const [c, s] = [Math.cos, Math.sin].map(part => part((-2 * Math.PI * k) / TURNS)),
+          u = between(px + c * (gap + wide / 2) - wide / 2, left, width - wide),
+          v = between(py + s * (gap + HIGH / 2) - HIGH / 2, top, height - HIGH);
+        if (tip) {
+          const [x, y] = [u + wide / 2, v + HIGH / 2],
+            own = far(x, y, at, tip) + 0.4;
+          if (
+            ax * (x - px) + ay * (y - py) < own || // by more than 70° aside
+            labels.some(one => one.tip && one.text !== text && far(x, y, one.at, one.tip) < own)
+          )
+            continue;
+        }
+        let cost = gap / 6 + 1 - ax * c - ay * s;
+        // dots are objects, not arrays, since this loop takes most of the time
+        for (const {x, y, r, heavy} of close) {
+          if (cost >= least) break;
+          if (x > u - r && x < u + wide + r && y > v - r && y < v + HIGH + r) cost += heavy;
+        }
+        const led = cost < least && gap > unled ? leader([px, py], u, v, wide) : null;
+        if (led && crossed(close, led[0], [px, py])) cost += CROSSED;
+        if (cost < least) [best, least] = [[u, v, led], cost];
+      }
+  }
+  return best;
+}
+
+/**
+ * The line to a point from a label whose upper left corner is (u, v). It does not reach the dot at
+ * the point.
+ * @type {(at: Pixel, u: number, v: number, wide: number) => [Pixel, Pixel]}
+ */
+function leader([px, py], u, v, wide) {
+  const [ex, ey] = [between(px, u, wide), between(py, v, HIGH)],
+    share = 6 / Math.hypot(ex - px, ey - py);
+  return [
+    [ex, ey],
+    [px + share * (ex - px), py + share * (ey - py)],
+  ];
+}
+
+/**
+ * Whether a line from a point goes through words, beyond what is at the point itself.
+ * @type {(dots: Dot[], end: Pixel, at: Pixel) => boolean}
+ */
+const crossed = (dots, end, [px, py]) =>
+  dots.some(
+    ({x, y, r, heavy}) =>
+      heavy === WORD && Math.hypot(x - px, y - py) > r && far(x, y, end, [px, py]) < r,
+  );
 
 /**
  * The place with the least ink within REACH; of several such places, the first.
@@ -108,39 +166,14 @@ export function freest(places) {
 }
 
 /**
- * The line from a point to a label whose upper left corner is (u, v).
- * @type {(px: number, py: number, u: number, v: number, wide: number) => Pixel}
+ * The distance of a place from a line.
+ * @type {(x: number, y: number, from: Pixel, to: Pixel) => number}
  */
-const line = (px, py, u, v, wide) => [between(px, u, wide) - px, between(py, v, HIGH) - py];
-
-/**
- * Draws a line from a point, but not up to the dot at the point itself.
- * @type {(g: Context, at: Pixel, way: Pixel, color: string) => void}
- */
-function lead(g, [x, y], [dx, dy], color) {
-  const gap = 6 / Math.hypot(dx, dy);
-  stroke(
-    g,
-    [
-      [x + dx, y + dy],
-      [x + gap * dx, y + gap * dy],
-    ],
-    color,
-    1,
-  );
-}
-
-/**
- * Whether a line from a point goes through words, beyond what is at the point itself.
- * @type {(dots: Dot[], px: number, py: number, dx: number, dy: number) => boolean}
- */
-const crossed = (dots, px, py, dx, dy) =>
-  dots.some(({x, y, r, heavy}) => {
-    const share = ((x - px) * dx + (y - py) * dy) / (dx * dx + dy * dy);
-    const aside = Math.hypot(x - px - share * dx, y - py - share * dy),
-      beyond = share > 0 && share < 1 && Math.hypot(x - px, y - py) > r;
-    return heavy === WORD && beyond && aside < r;
-  });
+const far = (x, y, [px, py], [qx, qy]) => {
+  const [dx, dy] = [qx - px, qy - py],
+    share = between(((x - px) * dx + (y - py) * dy) / (dx * dx + dy * dy), 0, 1);
+  return Math.hypot(x - px - share * dx, y - py - share * dy);
+};
 
 /** @type {(x: number, low: number, size: number) => number} */
 const between = (x, low, size) => Math.max(low, Math.min(low + size, x));

@@ -18,15 +18,11 @@ export function found(data, state, {answer, question: asking}) {
   state.best ||= all.length > 0 && all.every(k => state.order.includes(k));
   const own =
     mine && fill(words[asking.kind], {count: mine.cells[1], n: answer.among, t: mine.cells[2]});
+  const tours = [answer.greedy, state.best ? answer.best : null, mine],
+    names = /** @type {const} */ (["greedy", "best", "yours"]);
   return {
-    tours: /** @type {const} */ ([
-      ["greedy", answer.greedy],
-      ["best", state.best ? answer.best : null],
-      ["yours", mine],
-    ]).map(([name, tour]) => tour && toured(answer.chain, tour, name)),
-    cells: [answer.greedy, state.best ? answer.best : null, mine].map(
-      tour => tour?.cells ?? ["\u2013", "\u2013", "\u2013"],
-    ),
+    tours: tours.map((tour, k) => tour && toured(answer.chain, tour, names[k])),
+    cells: tours.map(tour => tour?.cells ?? Array(3).fill("\u2013")),
     says: [own, state.best ? answer.says : `${answer.alone} ${words.veiled}`]
       .filter(Boolean)
       .join(" "),

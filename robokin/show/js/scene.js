@@ -12,7 +12,6 @@ import {
   stroke,
   tiled,
   upright,
-  wordInk,
   write,
 } from "./canvas.js";
 import {frames, origin} from "./kinematics.js";
@@ -21,7 +20,7 @@ import {placeLabels} from "./labels.js";
 import {compass} from "./triad.js";
 
 /** @import {PageLink, PageScene, PageThing, Unit} from "./page.js" */
-/** @import {Box, Context, Pixel, Point} from "./canvas.js" */
+/** @import {Box, Context, Point} from "./canvas.js" */
 /** @import {Camera} from "./camera.js" */
 /** @import {Label} from "./labels.js" */
 /** @import {Now} from "./recordings.js" */
@@ -115,23 +114,30 @@ export function sceneView(canvas, scene) {
       pictures = scene.bases ? [arms] : arms.map(arm => [arm]);
     const [columns, rows] = arranged(scene, space, pictures.length, w, h),
       cw = w / columns,
-      ch = h / rows;
+      ch = h / rows,
+      many = pictures.length > 1; // several pictures have names and rows at the top
+    const edge = () => {
+      const {grid, unit} = scene,
+        scale = `grid ${+(grid / unit.size).toPrecision(6)} ${unit.name}`;
+      const row = many ? clock : arms.length > 1 ? "" : arms[0].row || "";
+      g.font = font(12);
+      const [wide, more] = [scale, row].map(text => g.measureText(text).width + 16);
+      g.fillStyle = colors.paper; // no line goes through the words
+      g.fillRect(8, h - 20, wide + (row ? more : 0) - 12, 16);
+      write(g, scale, 10, h - 8, colors.soft);
+      write(g, row, 10 + wide, h - 8);
+      if (!many) write(g, clock, w - 10, 18, colors.ink, 13, "right", "600");
+    };
     cameras = pictures.map((shown, i) => {
       /** @type {Box} */
       const cell = [(i % columns) * cw, Math.floor(i / columns) * ch, cw, ch];
-      const box = inside(cell);
       /** @type {(points: Point[]) => Camera} */
-      const fit = points => camera(view, [...space.corners, ...points], box);
+      const fit = points => camera(view, [...space.corners, ...points], inside(cell));
       const cam = (held && cameras[i]) || fit(scene.grows ? reached(scene, shown[0], fit([])) : []);
-      drawCell({g, cam, scene, space}, shown, cell, pictures.length > 1);
+      drawSpace({g, cam, scene, space}, shown, cell, many ? null : edge);
       return cam;
     });
-    const {grid, unit} = scene,
-      scale = `grid ${+(grid / unit.size).toPrecision(6)} ${unit.name}`,
-      many = pictures.length > 1;
-    // several pictures have names and rows at the top
-    writeFoot(g, h, scale, many ? clock : arms.length > 1 ? "" : arms[0].row);
-    if (!many) write(g, clock, w - 10, 18, colors.ink, 13, "right", "600");
+    if (many) edge();
     return true;
   }
 
@@ -153,20 +159,6 @@ export function sceneView(canvas, scene) {
       held = on;
     },
   };
-}
-
-/**
- * Writes the scale and another text at the lower edge. No line goes through them.
- * @type {(g: Context, h: number, scale: string, text?: string) => void}
- */
-function writeFoot(g, h, scale, text = "") {
-  g.font = font(12);
-  const [wide, more] = [scale, text].map(each => g.measureText(each).width);
-  g.fillStyle = colors.paper;
-  g.fillRect(8, h - 20, wide + 4, 16);
-  if (text) g.fillRect(24 + wide, h - 20, more + 4, 16);
-  write(g, scale, 10, h - 8, colors.soft);
-  write(g, text, 26 + wide, h - 8);
 }
 
 /**
@@ -236,37 +228,24 @@ function reached(scene, arm, fixed) {
 }
 
 /**
- * Draws a picture inside its cell, and a line between it and the cell on its left.
+ * Draws arms, and everything around them, inside the cell of one picture, and a line between it and
+ * the cell on its left.
  * @param {Pen} pen
  * @param {Shown[]} arms
  * @param {Box} cell
- * @param {boolean} named
+ * @param {?() => void} edge  writes the words at the edge of the only picture
  */
-function drawCell(pen, arms, cell, named) {
-  const {g} = pen,
-    [x, y, , h] = cell;
-  g.save();
-  g.beginPath();
-  g.rect(...cell);
-  g.clip();
-  drawSpace(pen, arms, cell, named);
-  g.restore();
-  if (x) upright(g, x, y + 10, y + h - 10, colors.grid, 1);
-}
-
-/**
- * Draws arms, and everything around them, in one picture.
- * @param {Pen} pen
- * @param {Shown[]} arms
- * @param {Box} cell
- * @param {boolean} named
- */
-function drawSpace(pen, arms, [x, y, w, h], named) {
+function drawSpace(pen, arms, cell, edge) {
   const {g, cam, scene} = pen,
+    [x, y, w, h] = cell,
     [first] = arms,
     all = arms.map((arm, i) => stood(pen, arm, scene.bases?.[i]));
   /** @type {(kind: string) => Now<PageThing>[]} */
   const only = kind => scene.things.filter(thing => thing.kind === kind);
+  g.save();
+  g.beginPath();
+  g.rect(...cell);
+  g.clip();
   const sunk = all.filter(one => one.dips);
   let before = ink.length;
   drawFloor(pen);
@@ -287,12 +266,10 @@ function drawSpace(pen, arms, [x, y, w, h], named) {
       weight: "600",
     })),
   );
-  ink.push(...(first.handles?.(all[0].cam) ?? []).map(wordInk));
-  /** @type {Label[]} */
-  const ofThings = [];
-  for (const kind in KINDS) KINDS[kind].above({...pen, near: first.near}, only(kind), ofThings);
-  labels.push(...all.flatMap(drawFlange), ...ofThings); // a flange is drawn over its target
-  if (named) {
+  for (const kind in KINDS) KINDS[kind].above({...pen, near: first.near}, only(kind), labels);
+  labels.unshift(...all.flatMap(drawFlange)); // a flange is drawn over its target
+  if (edge) edge();
+  else {
     const {name, row = ""} = first;
     write(g, name, x + 10, y + 18, colors.ink, 13, "left", "600");
     // below the name if there is no room beside it
@@ -301,18 +278,31 @@ function drawSpace(pen, arms, [x, y, w, h], named) {
     else write(g, row, x + 10, y + 34);
   }
   if (arms.some(arm => arm.faded)) {
-    const at = /** @type {Pixel} */ ([x + w / 2, y]),
-      {nowhere: text = "no solution"} = first;
-    labels.push({text, at, color: colors.alarm, weight: "600", away: [0, 1]});
+    labels.push({
+      text: first.nowhere ?? "no solution",
+      at: [x + w / 2, y + 24],
+      color: colors.alarm,
+      weight: "600",
+      away: [0, 1],
+    });
   }
-  for (const {cam, labels: own = []} of all)
-    for (const {at, along = [at], apart = [], ...look} of own) {
-      const [places, others] = [along, apart].map(each => each.map(cam.to));
-      labels.push({weight: "600", ...look, at: cam.to(at), along: places, apart: others});
-    }
-  placeLabels(g, labels, [x + 4, y + 24, w - 8, h - 46]);
-  compass(g, cam, [x, y, w, h]); // last: labels need the room more
+  labels.push(...all.flatMap(onCanvas));
+  const room = /** @type {Box} */ ([x + 4, y + 4, w - 8, h - (edge ? 8 : 26)]);
+  placeLabels(g, labels, room, first.handles?.(all[0].cam));
+  compass(g, cam, cell); // last: labels need the room more
+  g.restore();
+  if (x) upright(g, x, y + 10, y + h - 10, colors.grid, 1);
 }
+
+/**
+ * The labels of an arm on the canvas.
+ * @type {(arm: Pick<Shown, "labels"> & {cam: Camera}) => Label[]}
+ */
+const onCanvas = ({cam, labels = []}) =>
+  labels.map(({at, along = [at], apart = [], ...look}) => {
+    const [places, others] = [along, apart].map(each => each.map(cam.to));
+    return {weight: "600", ...look, at: cam.to(at), along: places, apart: others};
+  });
 
 /**
  * Draws the floor's grid; with `over`, a translucent floor on top of what is already drawn.

@@ -1,7 +1,7 @@
 // The common parts of all explorers: the frame in the page, the picture, sliders, tables.
 
 import {frames, origin, plus, turned} from "./kinematics.js";
-import {clear, colors, jointColor, number, replaceStill, stroke} from "./canvas.js";
+import {clear, colors, jointColor, number, replaceStill, shape, stroke} from "./canvas.js";
 import {sceneOf, sceneView} from "./scene.js";
 import {orbit, sceneCanvas, spoken} from "./controls.js";
 import {pictures} from "./pictures.js";
@@ -210,23 +210,19 @@ function drawAids(g, camera, {chain, q, axes, ellipsoid}, size) {
     ellipsoid.map(axis => camera.along(axis)).reduce((sum, s) => sum + s[i] * s[j], 0),
   );
   const middle = (a + c) / 2,
-    apart = Math.sqrt(((a - c) * (a - c)) / 4 + b * b),
+    apart = Math.hypot((a - c) / 2, b),
     [x, y] = camera.to(tip);
-  g.beginPath();
-  g.ellipse(
-    x,
-    y,
-    Math.sqrt(middle + apart),
-    Math.sqrt(Math.max(0, middle - apart)),
-    Math.atan2(2 * b, a - c) / 2,
-    0,
-    2 * Math.PI,
-  );
-  g.fillStyle = clear(colors.accent, 0.14);
-  g.fill();
-  g.strokeStyle = colors.accent;
-  g.lineWidth = 1.6;
-  g.stroke();
+  const draw = () =>
+    g.ellipse(
+      x,
+      y,
+      Math.sqrt(middle + apart),
+      Math.sqrt(Math.max(0, middle - apart)),
+      Math.atan2(2 * b, a - c) / 2,
+      0,
+      2 * Math.PI,
+    );
+  shape(g, draw, clear(colors.accent, 0.14), colors.accent, 1.6);
 }
 
 /**

@@ -13,9 +13,9 @@ export const target = {
   seen: ({pose}) => [origin(pose)],
   /** Draws the straight route between targets that are stations of a path. */
   below({g, cam}, targets) {
-    const stations = ["start", "via", "goal"]
-      .map(name => targets.find(each => each.name === name))
-      .filter(each => each !== undefined);
+    const stations = ["start", "via", "goal"].flatMap(name =>
+      targets.filter(each => each.name === name),
+    );
     if (stations.length < 2) return;
     const route = stations.map(({pose}) => cam.to(origin(pose)));
     stroke(g, route, clear(colors.soft, 0.55), 1, [7, 5]);
@@ -24,7 +24,7 @@ export const target = {
   above({g, cam, scene, near}, targets, labels) {
     for (const {name, pose} of targets) {
       const from = cam.to(origin(pose));
-      triad(g, cam, pose, 0.09 * scene.size, 1.8, 0.95);
+      triad(g, cam, pose, 0.09 * scene.size, 1.8);
       spot(g, from, 2.6, colors.path, colors.paper, 1);
       labels.push({text: name, at: from, color: colors.ink, weight: "600"});
     }

@@ -94,8 +94,9 @@ export const below =
       stroke(g, [to([x, y, z]), to([x, y, 0])], colors.soft, 1, [2, 3]);
       spot(g, to([x, y, 0]), 2, colors.soft, colors.paper, 0.5);
     }
-    for (const tour of [...tours].reverse().filter(each => each !== null)) {
-      // draw the dashed tour last
+    // draw the dashed tour last
+    for (const tour of [...tours].reverse()) {
+      if (!tour) continue;
       if (tour.dips)
         stroke(
           g,

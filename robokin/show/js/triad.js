@@ -19,31 +19,24 @@ export const AXES = /** @type {const} */ (["x", "y", "z"]);
  * @param {number[]} pose  12 numbers
  * @param {number} length
  * @param {number} width
- * @param {number} alpha
  * @returns {Label[]}
  */
-export function triad(g, cam, pose, length, width, alpha) {
+export function triad(g, cam, pose, length, width) {
   const p = origin(pose),
-    from = cam.to(p),
-    before = g.globalAlpha;
+    from = cam.to(p);
   const axes = AXES.map((name, k) => ({name, way: [pose[k], pose[4 + k], pose[8 + k]]}));
   axes.sort((m, n) => dot(m.way, cam.toward) - dot(n.way, cam.toward));
-  g.globalAlpha = before * alpha;
-  const tips = axes.map(({name, way}) => {
-    const tip = cam.to(plus(p, way, length));
+  const letters = axes.flatMap(({name, way}) => {
+    const tip = cam.to(plus(p, way, length)),
+      [dx, dy] = [tip[0] - from[0], tip[1] - from[1]],
+      long = Math.hypot(dx, dy),
+      away = /** @type {Pixel} */ ([dx, dy].map(d => (3 * d) / long));
     stroke(g, [from, tip], colors.paper, width + 2);
     stroke(g, [from, tip], colors[name], width);
-    return {name, tip};
-  });
-  g.globalAlpha = before;
-  return tips.reverse().flatMap(({name, tip}) => {
-    const [dx, dy] = [tip[0] - from[0], tip[1] - from[1]],
-      long = Math.hypot(dx, dy);
     if (long <= 0.35 * length * cam.scale) return [];
-    /** @type {Pixel} */
-    const away = [(3 * dx) / long, (3 * dy) / long];
-    return [{text: name, at: tip, color: colors[name], weight: "600", away, tip: true}];
+    return [{text: name, at: tip, color: colors[name], weight: "600", away, tip: from}];
   });
+  return letters.reverse();
 }
 
 /**
@@ -54,24 +47,20 @@ export function triad(g, cam, pose, length, width, alpha) {
  * @param {Box} cell
  */
 export function compass(g, cam, [left, top, wide, tall]) {
-  const [right, high] = [left + wide - 34, top + 60],
+  const [right, high] = [left + wide - 34, top + 62],
     [x, y] = freest([
       [right, top + tall - 34],
       [right, high],
       [left + 34, high],
     ]);
-  [
-    [1, 0, 0],
-    [0, 1, 0],
-    [0, 0, 1],
-  ].forEach((axis, k) => {
-    const [dx, dy] = cam.along(axis).map(d => d / cam.scale),
+  AXES.forEach(name => {
+    const [dx, dy] = cam.along(AXES.map(axis => Number(axis === name))).map(d => d / cam.scale),
       l = Math.hypot(dx, dy);
     if (l < 0.1) return;
     /** @type {(r: number) => Pixel} */
     const at = r => [x + r * dx, y + r * dy];
-    stroke(g, [[x, y], at(18)], colors[AXES[k]], 1.4);
+    stroke(g, [[x, y], at(18)], colors[name], 1.4);
     const [px, py] = at(18 + 7 / l);
-    write(g, AXES[k], px, py + 3.5, colors[AXES[k]], 10, "center");
+    write(g, name, px, py + 3.5, colors[name], 10, "center");
   });
 }
