@@ -79,11 +79,14 @@ def test_text_has_enough_contrast_in_both_themes():
 
 
 def test_data_contain_no_decimals_of_whole_numbers():
-    """They would make a page longer. Strings are unchanged."""
-    data = {"a, 1.0]": [1.0, -20.0, 1.05, 0.0, 1e16, '2.0,"3.0,', "\\"], "b": 3.0}
+    """They would make a page longer. Strings are unchanged, and so are data that are read and
+    written again: JSON has -0, but Python reads it as 0.
+    """
+    data = {"a, 1.0]": [1.0, -20.0, 1.05, 0.0, 1e16, '2.0,"-0.0,', "\\"], "b": -0.0, "c": -10.0}
     text = markup.inert(data)
     assert json.loads(text) == data
-    assert text == r'{"a, 1.0]":[1,-20,1.05,0,1e+16,"2.0,\"3.0,","\\"],"b":3}'
+    assert text == r'{"a, 1.0]":[1,-20,1.05,0,1e+16,"2.0,\"-0.0,","\\"],"b":0,"c":-10}'
+    assert markup.inert(json.loads(text)) == text
 
 
 # --- The joiner -----------------------------------------------------------------------------------

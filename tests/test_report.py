@@ -239,7 +239,7 @@ def test_invalid_report_data_are_refused(hostile):
     assert report_data("<!DOCTYPE html><p>A page</p>") is None
     for this, that in (
         ('"state":"holds"', '"state":"perfect"'),
-        ('"points":1.0', '"points":7'),
+        ('"points":1}', '"points":7}'),
         ('"report":2', '"report":3'),
         ('"lab":"scara_motion"', '"lab":"os"'),
         ('"who":"Ada Lovelace"', '"who":["Ada"]'),

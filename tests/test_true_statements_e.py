@@ -383,7 +383,7 @@ def test_phi_loses_digits_as_stated():
 
 def test_unwrapping_matters_only_for_joint_6():
     words = flat("07", "choose-rule")
-    told = "it can overlook only joint 6, which can turn through 532° (some $k$ is always inside)."
+    told = "only those of joint 6, which can turn through 532° (some $k$ is always inside)."
     assert told in words
     low, high = PUMA560.limits.T
     assert ((high - low) / deg > 360).tolist() == [False] * 5 + [True]

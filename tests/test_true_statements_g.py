@@ -440,11 +440,11 @@ def arms_needed(v, spread, seed):
 
 def test_belt_table_shows_one_stream_and_other_streams_need_one_more_arm():
     words = flat("14", "belt-look")
-    assert "at all six speeds. At spread 0.5, it is one arm too few at three of them, and" in words
-    assert "at spread 1 at five. All this is for one order of the gaps" in words
+    assert "at all six speeds. At spread 0.5, that is one arm too few at three of the" in words
+    assert "speeds; at spread 1, at five. Other orders may need another arm" in words
     orders, fourth, more = numbers(
         r"The folded cell tries (\d+) orders at 200 and 300 mm/s: at spread 0.5, none needs "
-        r"another arm; at spread 1, (\d+) and (\d+) do\.",
+        r"more than in the table; at spread 1, (\d+) and (\d+) do\.",
         flat("14", "deeper"),
     )
     printed = shown("14", "deeper-orders")
@@ -498,11 +498,9 @@ def test_gripping_time_needs_a_third_arm():
 
 def test_belt_player_shows_the_streams_of_the_table(monkeypatch):
     spreads = [0, 0.2, 0.4, 0.6, 0.8, 1]
-    assert "Play these six seconds from the middle of a stream of 200 objects." in flat(
-        "14", "title"
-    )
+    assert "Play these six seconds of a stream of 200 objects." in flat("14", "title")
     (come,) = numbers(
-        r"In every view, the clock starts when about the (\d+)th object comes \*in\*\.",
+        r"In every view, the clock starts roughly when the (\d+)th object comes \*in\*\.",
         flat("14", "able"),
     )
     assert f"conveyor_player(v=0.2, spread={spreads})" in cells("14")["opening"]
@@ -540,8 +538,8 @@ def given_to_animate(monkeypatch, cell, call):
 
 def test_one_arm_brings_as_many_objects_by_each_rule_as_stated(monkeypatch):
     assert (
-        '"First come" meets them near the far end, and brings two at each spread; "back soonest" '
-        "brings four or five." in flat("14", "belt-player-look")
+        'Under "first come", it meets them near the far end, and brings back two at each spread; '
+        'under "back soonest", four or five.' in flat("14", "belt-player-look")
     )
     call = "conveyor_player(0.15, [0, 0.5, 1], arms=1, rules=True)"
     (_, clock, (q,)), named = given_to_animate(monkeypatch, "belt-player", call)
@@ -560,9 +558,9 @@ def test_one_arm_brings_as_many_objects_by_each_rule_as_stated(monkeypatch):
 def test_each_rule_misses_none_up_to_the_stated_belt_speed(monkeypatch):
     """In the six seconds of the view, and `first come` also in the whole stream."""
     first, soonest, whole, at, lost, few = numbers(
-        r'In these six seconds, "first come" misses none up to (\d+) mm/s, and "back soonest" none '
-        r"up to (\d+)\. But six seconds are not the stream: of all 200, both miss none up to "
-        r"(\d+); at (\d+), they miss (\d+) and (\d+)\.",
+        r'"First come", above (\d+) mm/s\. In these six seconds, "back soonest" misses none up to '
+        r"(\d+)\. Of all 200 objects, both miss none up to (\d+); at (\d+), they miss (\d+) and "
+        r"(\d+)\.",
         flat("14", "belt-speed-look"),
     )
     speeds = [0.08, 0.09, 0.1, 0.11, 0.12, 0.13]
@@ -601,7 +599,7 @@ def in_order(arrivals, v):
 def test_first_come_is_never_worse_for_one_arm_that_must_miss_none():
     words = flat("14", "belt-curve-look")
     (more,) = numbers(
-        r'"First come" \(dashed\) was never worse here, and up to (\d+) mm/s faster', words
+        r'"First come" \(dashed\) was never worse here, and allowed up to (\d+) mm/s more', words
     )
     made = quietly("14", "belt-spread")
     soonest, first = made["most"], made["most_first"]
@@ -634,7 +632,7 @@ def test_first_come_misses_far_more_a_little_above_its_limit():
     at_out = [len(at_far_end(belt_stream(0.5, seed) / 0.1, 0.1, False)) for seed in (8, 9, 10)]
     in_turn = [len(at_far_end(belt_stream(0.5, seed) / 0.1, 0.1, True)) for seed in (8, 9, 10)]
     assert at_out == in_turn and sorted({*at_out}) == [3, 4]
-    assert "With the bin at the *out* end (last column), either rule misses 3 or 4, and is" in flat(
+    assert "With the bin at the *out* end (y = 450 mm), either rule misses 3 or 4, and" in flat(
         "14", "belt-curve-look"
     )
     line = shown("14", "belt-spread").splitlines()[-1]
@@ -659,16 +657,18 @@ def at_far_end(arrivals, v, in_order_too):
     return left
 
 
+def last_at_far_end(arrivals, v):
+    return None, at_far_end(arrivals, v, True)
+
+
 def test_a_single_arm_needs_neither_end_for_its_bin():
     """At the end where the objects go out, both rules reach the same speeds, at most 5 mm/s lower
     and 10 mm/s higher than those of first come at the other end.
     """
-    assert "is at most 5 mm/s slower than" in flat("14", "belt-curve-look")
-    slower, faster = numbers(
-        r"the highest speed was at most (\d+) mm/s lower and (\d+) mm/s higher than under "
-        r'"first come" at the other end\.',
-        flat("14", "short"),
+    (slower,) = numbers(
+        r'and allows at most (\d+) mm/s less than "first come" did\.', flat("14", "belt-curve-look")
     )
+    faster = 10
     made = quietly("14", "belt-spread")
     out, first = made["most_out"], made["most_first"]
     assert ((out - first).min(), (out - first).max()) == (-slower, faster)
@@ -686,7 +686,7 @@ def test_a_single_arm_needs_neither_end_for_its_bin():
 def test_first_joint_decides_the_time_of_one_object():
     """It turns farthest to every place of the window, and least to the first one."""
     words = flat("14", "belt-bound")
-    assert "Here joint 1 always turns farthest, and least to the first point:" in words
+    assert "Joint 1 always turns farthest; its rotation is smallest for the first point:" in words
     at_bin, begin, turn, radians = numbers(r"= (\S+)° - (\S+)° = (\S+)° = (\S+)\$ rad, so", words)
     (c,) = numbers(r"\\frac\{0\.661\}\{2\} = (\S+) \\text", words)
     stand = joints_of([0.15, -0.45, 0.25], 0.5, 0.4)
@@ -705,17 +705,33 @@ def test_first_joint_decides_the_time_of_one_object():
 
 
 def test_half_a_window_saves_arms_under_first_come():
-    assert "so that no trip is long: **try** `ALONG[:81]`." in flat("14", "belt-look")
+    words = flat("14", "belt-look")
+    assert "shorten the window (`ALONG[:81]`;" in words
+    at_in, at_out = (
+        numbers(pattern, words)
+        for pattern in (
+            r"`first_come = True`: (\d), (\d) and (\d) arms at 200 mm/s\)",
+            r"the bin where they go out \(`ways_from\(\)\[::-1\]`: (\d), (\d) and (\d)\)",
+        )
+    )
     in_turn = ("first_come = False", "first_come = True")
     half = ("along = ALONG ", "along = ALONG[:81] ")
-    for spread, saved in ((0, 1), (0.5, 1), (1, 1)):
+    out = ("ways = ways_from() ", "ways = ways_from()[::-1] ")
+    for k, (spread, saved) in enumerate(((0, 1), (0.5, 1), (1, 1))):
         counts = []
-        for changed in ([in_turn], [in_turn, half]):
+        for changed in ([in_turn], [in_turn, half], [in_turn, out]):
             with contextlib.redirect_stdout(io.StringIO()):
                 taken = run_cells("14", "belt-arms", changed=changed)["taken"]
             assert taken(0.2, spread).sum() == 200
             counts.append((taken(0.2, spread) > 0).sum())
         assert counts[0] - counts[1] == saved
+        assert [counts[0], counts[2]] == [at_in[k], at_out[k]]
+        arrivals = belt_stream(spread, 8) / 0.2  # the same with our own arm
+        for needed, rule in ((at_in[k], in_order), (at_out[k], last_at_far_end)):
+            left, count = arrivals, 0
+            while len(left):
+                left, count = np.array(rule(np.array(left), 0.2)[1]), count + 1
+            assert count == needed
 
 
 def test_twice_the_gap_does_not_double_the_speed_for_uneven_gaps():
@@ -741,8 +757,8 @@ def test_twice_the_gap_does_not_double_the_speed_for_uneven_gaps():
 def test_first_come_needs_more_arms_as_stated():
     assert (
         "At 200 mm/s, even evenly spaced objects then need four arms instead of two, since each "
-        "arm but the last gets more objects than it can take (50, 50 and 49: **try** `first_come = "
-        "True` below)." in flat("14", "belt-rules-look")
+        "arm but the last gets more objects than it can take (50, 50 and 49)."
+        in flat("14", "belt-rules-look")
     )
     assert "first_come = False  # try True" in cells("14")["belt-arms"]
     left, takes = belt_stream(0, 8) / 0.2, []
@@ -754,9 +770,8 @@ def test_first_come_needs_more_arms_as_stated():
 
 
 def test_only_first_come_gives_the_fourth_arm_work(monkeypatch):
-    assert (
-        '"Back soonest" leaves it nothing; with "first come", it works at every spread, even at 0.'
-        in flat("14", "belt-rules-look")
+    assert '"Back soonest" leaves it nothing; with "first come", it works at every spread.' in flat(
+        "14", "belt-rules-look"
     )
     call = "conveyor_player(0.2, [0, 0.5, 1], arms=4, rules=True)"
     (_, _, motions), named = given_to_animate(monkeypatch, "belt-rules-player", call)
@@ -779,13 +794,9 @@ def test_only_first_come_gives_the_fourth_arm_work(monkeypatch):
 def test_rules_are_equally_good_with_the_bin_at_the_other_end():
     """A late arm then meets its object nearer to the bin."""
     assert (
-        "The object that came first is met nearest to the bin, so it is brought back soonest: both "
-        "rules take equally many objects at all five speeds, and as many as the better rule at the "
-        "other end, to within two." in flat("14", "belt-row")
-    )
-    assert (
-        "in section 2 either rule took as many objects as the better rule at the other end, to "
-        "within two." in flat("14", "short")
+        "Of the objects in reach, the first is met nearest to the bin, so it is also back soonest: "
+        "at each of the five speeds, both rules take the same number of objects, within two of the "
+        "better rule at the other end." in flat("14", "belt-row")
     )
     # the window is mirrored instead of the bin: the places are then passed from far to near
     printed = shown("14", "belt-work").splitlines()[-5:]

@@ -116,7 +116,11 @@ def spells(t: Floats, holds: Bools) -> str:
     """
     edges = np.flatnonzero(np.diff(np.concatenate([[False], holds, [False]]).astype(int)))
     first = f"from {tidy(t[edges[0]], 2):.2f} to {tidy(t[edges[1] - 1], 2):.2f} s"
-    return first if len(edges) == 2 else f"{first} and {len(edges) // 2 - 1} more times"
+    return first + again(len(edges) // 2 - 1)
+
+
+def again(times: int) -> str:
+    return f" and {times} more time{'s' * (times > 1)}" if times > 0 else ""
 
 
 def flaws(track: Recording, kept: Ints, units: Floats, length: str) -> Flaws:
@@ -173,7 +177,7 @@ def flaws(track: Recording, kept: Ints, units: Floats, length: str) -> Flaws:
             )
     for c, marked in jumps.items():
         times = ", ".join(f"{when:.2f}" for when, _ in marked[:3])
-        more = f" and {len(marked) - 3} more times" if len(marked) > 3 else ""
+        more = again(len(marked) - 3)
         notes.setdefault(c, []).append(
             f"The speed jumps at {times} s{more}, so there is no finite acceleration."
         )

@@ -15,12 +15,13 @@ STILL = (
     "A still picture. To see it move: run all cells (Run > Run All Cells), or trust the notebook "
     "(Ctrl+Shift+C, then Trust Notebook)."
 )
-WHOLE = re.compile(r'("(?:[^"\\]|\\.)*")|(?<=\d)\.0(?=[,\]}])')  # a string, or what ends 1.0
+# a string, the sign of -0.0, or what ends 1.0
+WHOLE = re.compile(r'("(?:[^"\\]|\\.)*")|-(?=0\.0[,\]}])|(?<=\d)\.0(?=[,\]}])')
 
 
 def inert(data: Any) -> str:
-    """Return `data` as JSON that is safe inside a script, with 1 for 1.0. Raises ValueError if JSON
-    cannot represent it.
+    """Return `data` as JSON that is safe inside a script, with 1 for 1.0 and 0 for -0.0. Raises
+    ValueError if JSON cannot represent it.
     """
     try:
         text = json.dumps(data, separators=(",", ":"), ensure_ascii=False, allow_nan=False)

@@ -299,10 +299,13 @@ function drawSpace(pen, arms, cell, edge) {
  * @type {(arm: Pick<Shown, "labels"> & {cam: Camera}) => Label[]}
  */
 const onCanvas = ({cam, labels = []}) =>
-  labels.map(({at, along = [at], apart = [], ...look}) => {
-    const [places, others] = [along, apart].map(each => each.map(cam.to));
-    return {weight: "600", ...look, at: cam.to(at), along: places, apart: others};
-  });
+  labels.map(({at, along = [at], apart = [], ...look}) => ({
+    weight: "600",
+    ...look,
+    at: cam.to(at),
+    along: along.map(cam.to),
+    apart: apart.map(cam.to),
+  }));
 
 /**
  * Draws the floor's grid; with `over`, a translucent floor on top of what is already drawn.
