@@ -378,8 +378,7 @@ def test_movement_depends_on_the_required_distance_as_stated():
     low, near, high, far, falls, to, stays = said(
         "10",
         "often-look",
-        text
-        + r"but it falls once, between the distances of (\d+) and (\d+) mm.* At (\d+) mm, the arm "
+        text + r"but it falls once, between (\d+) and (\d+) mm.* At (\d+) mm, the arm "
         r"does not",
     )
     asks = eval(re.search(r"asks = (np\.array\(.*?\))", cells("10")["control-player"])[1])

@@ -942,8 +942,8 @@ def test_motors_reverse_on_the_straight_line_where_the_lab_says():
 
 def test_straight_line_is_path_b_in_exactly_the_cases_that_lab_11_states():
     assert (
-        "None reverses if the distance from the base and γ each only grow or only shrink along the "
-        "line" in flat("11", "paths-look")
+        "None reverses if the distance from the base only grows or only shrinks along the line, "
+        "and γ, too" in flat("11", "paths-look")
     )
     start, loader = np.array([600, -350, 50]) * mm, loader_arm(0.45, 0.30)
     rng, found = np.random.default_rng(11), []
@@ -1034,7 +1034,7 @@ def test_answers_to_the_drag_tasks_of_lab_11_are_true():
     """The tasks are about path b, the limits of reach, the drift of the cycle and half steps."""
     start, loader = np.array([600, -350, 50]) * mm, loader_arm(0.45, 0.30)
     goal = numbers(
-        r"only shrink along the line, as for \((\S+), (\S+), (\S+)\) mm\.",
+        r"and γ, too, as for \((\S+), (\S+), (\S+)\) mm\.",
         flat("11", "paths-look"),
     )
     share = np.linspace(0, 1, 2001)[:, None]
