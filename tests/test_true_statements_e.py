@@ -942,8 +942,8 @@ def test_motors_reverse_on_the_straight_line_where_the_lab_says():
 
 def test_straight_line_is_path_b_in_exactly_the_cases_that_lab_11_states():
     assert (
-        "None reverses if the distance from the base only grows or only shrinks along the line, "
-        "and γ, too" in flat("11", "paths-look")
+        "None reverses if, along the line, the distance from the base only grows or only shrinks, "
+        "and so does γ" in flat("11", "paths-look")
     )
     start, loader = np.array([600, -350, 50]) * mm, loader_arm(0.45, 0.30)
     rng, found = np.random.default_rng(11), []
@@ -999,7 +999,7 @@ def test_half_a_pulse_moves_the_gripper_as_far_as_lab_11_prints():
     assert np.linalg.norm(turned - np.array([600, -350, 50]) * mm) / mm == pytest.approx(
         moved, abs=0.006
     )
-    assert angle == 0.5 * 1.8 / 18 and "makes this bound smaller" in flat("11", "pulses-look")
+    assert angle == 0.5 * 1.8 / 18 and "makes this error smaller" in flat("11", "pulses-look")
 
 
 def test_motor_without_pulses_stands_still_in_lab_11():
@@ -1034,7 +1034,7 @@ def test_answers_to_the_drag_tasks_of_lab_11_are_true():
     """The tasks are about path b, the limits of reach, the drift of the cycle and half steps."""
     start, loader = np.array([600, -350, 50]) * mm, loader_arm(0.45, 0.30)
     goal = numbers(
-        r"and γ, too, as for \((\S+), (\S+), (\S+)\) mm\.",
+        r"and so does γ, as for \((\S+), (\S+), (\S+)\) mm\.",
         flat("11", "paths-look"),
     )
     share = np.linspace(0, 1, 2001)[:, None]

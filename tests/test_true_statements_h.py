@@ -345,7 +345,10 @@ def flange_rates(pose, row, direction, step=1e-7):
 
 def test_joint_speeds_stay_bounded_in_some_directions():
     words = flat("07", "short")
-    assert "On the lines of section 5, they grow as $1/m$ near the wrist singularity" in words
+    assert (
+        "On the lines of section 5, the joint speeds grow as $1/m$ near the wrist singularity"
+        in words
+    )
     assert "in other directions, they can stay bounded." in words
     aligned = PUMA560.fk(np.array([0, 60, -170, 0, 0, 0]) * deg)
     sideways, upwards = [], []
