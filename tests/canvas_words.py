@@ -103,19 +103,24 @@ RECORD = """
     }));
 })();
 """
-# `canvas.lines`: the points (px), colour, width and dash of all lines in the last picture
+# `canvas.lines`: the points (px), colour, width and dash of all lines in the last picture, and the
+# pieces of each line, which begin with a move
 LINES = """{
   const pen = CanvasRenderingContext2D.prototype;
   const {clearRect, beginPath, moveTo, lineTo, stroke} = pen;
   Object.assign(pen, {
     clearRect(...all) { this.canvas.lines = []; return clearRect.apply(this, all); },
-    beginPath() { this.line = []; return beginPath.call(this); },
-    moveTo(x, y) { this.line.push([x, y]); return moveTo.call(this, x, y); },
-    lineTo(x, y) { this.line.push([x, y]); return lineTo.call(this, x, y); },
+    beginPath() { this.pieces = []; return beginPath.call(this); },
+    moveTo(x, y) { this.pieces.push([[x, y]]); return moveTo.call(this, x, y); },
+    lineTo(x, y) {
+      if (!this.pieces.length) this.pieces.push([]);
+      this.pieces.at(-1).push([x, y]);
+      return lineTo.call(this, x, y);
+    },
     stroke() {
       const width = +this.lineWidth.toFixed(2); // a canvas keeps 32 bits of it
-      const [points, color, dash] = [this.line, this.strokeStyle, this.getLineDash()];
-      this.canvas.lines?.push({points, color, width, dash});
+      const [pieces, color, dash] = [this.pieces, this.strokeStyle, this.getLineDash()];
+      this.canvas.lines?.push({points: pieces.flat(), pieces, color, width, dash});
       return stroke.call(this);
     },
   });

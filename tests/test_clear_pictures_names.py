@@ -23,26 +23,6 @@ from robokin.show.palette import PAGE
 from robokin.show.things import Zone
 
 page = test_clear_pictures.page
-# `canvas.dashed`: the pieces of the dashed lines of the last picture, by their dashes
-DASHED = """{
-  const pen = CanvasRenderingContext2D.prototype;
-  const {clearRect, beginPath, moveTo, lineTo, stroke} = pen;
-  Object.assign(pen, {
-    clearRect(...all) { this.canvas.dashed = []; return clearRect.apply(this, all); },
-    beginPath() { this.pieces = []; return beginPath.call(this); },
-    moveTo(x, y) { this.pieces.push([[x, y]]); return moveTo.call(this, x, y); },
-    lineTo(x, y) {
-      if (!this.pieces.length) this.pieces.push([]);
-      this.pieces.at(-1).push([x, y]);
-      return lineTo.call(this, x, y);
-    },
-    stroke() {
-      const dash = this.getLineDash().join();
-      if (dash) this.canvas.dashed?.push({dash, color: this.strokeStyle, pieces: this.pieces});
-      return stroke.call(this);
-    },
-  });
-}"""
 
 
 LINK = "lu", "lw"
@@ -191,9 +171,9 @@ def collected():
 @pytest.mark.parametrize("width", [PHONE[0], 900])
 def test_dashed_line_does_not_run_back_over_itself(page, tmp_path, view, dash, name, width):
     """Its dashes would fill the gaps."""
-    shown(page, view(), tmp_path, width, "max", name, DASHED)
-    lines = page.evaluate("document.querySelector('canvas').dashed")
-    lines = [line["pieces"] for line in lines if line["dash"] == dash]
+    shown(page, view(), tmp_path, width, "max", name, LINES)
+    dashed = "dash => document.querySelector('canvas').lines.filter(x => x.dash.join() === dash)"
+    lines = [line["pieces"] for line in page.evaluate(dashed, dash)]
     assert lines
     for pieces in lines:
         starts, ends = (
