@@ -248,7 +248,7 @@ def test_link_1_along_the_line_for_side_0_is_recognised(sign, checks):
     verdict = check("two_link_code_generation.1", elbow)
     names = ["the sides swapped", "l1 along the line for side 0"][sign > 0 :]
     ends = {"": "no answer for the stretched arm", "reach": "no answer for the stretched arm"}
-    ends["strict, rim"] = "no point there out of reach"
+    ends["strict, rim"] = "no point if the tip is out of reach"
     names += [ends[checks]] if checks in ends else []
     assert verdict.mistake == ", and ".join(names)
     assert ("yours is on the other side" if sign < 0 else "side = 0") in verdict.case
@@ -326,7 +326,8 @@ def test_a_root_that_is_nan_for_side_0_is_distinguished_from_rounding_on_the_rim
 
     both = answer(lambda side, h2: side * np.sqrt(h2))
     assert both.mistake == (
-        "no point between the elbows out of reach, and no answer for the stretched arm"
+        "no point between the elbows if the tip is out of reach, "
+        "and no answer for the stretched arm"
     )
     assert "side = 0" in both.case and "0 times NaN is NaN" in both.says[0]
     assert (

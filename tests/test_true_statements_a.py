@@ -845,7 +845,7 @@ def test_stated_minimum_ratio_of_tool_speed_to_joint_speed_holds():
     text = " ".join(sources("06")["near-look"].split())
     most, speed, needed, sigma = re.search(
         r"can reach (\d+)°/s, a tool at (\d+) mm/s is safe above (\S+) mm/s per °/s, "
-        r"or above \S+sigma\S+ = (\S+)\.",
+        r"that is, above \S+sigma\S+ = (\S+)\.",
         text,
     ).groups()
     assert float(needed) == int(speed) / int(most)

@@ -292,9 +292,9 @@ def test_random_choice_turns_the_joints_more_by_the_stated_factor():
     times = turned["dice"] / turned["least"]
     assert options[right].text == f"About {times:.1f} times as much."
     text = " ".join([question, options[right].reason])
-    told = re.search(r"turn by (\d+)° in each task.* adds (\d+)°.* takes (\d+) % more", text)
+    told = re.search(r"turn by (\d+)° per task on average.* adds (\d+)°.* takes (\d+) % more", text)
     wide = np.diff(ARM.alpha_range(places), axis=0).mean() / deg
-    assert f"the range of alpha is {wide:.0f}° wide on average" in question
+    assert f"the range of alpha at a target is {wide:.0f}° wide on average" in question
     own = [turned["least"], turned["dice"] - turned["least"]]
     own.append(1e4 * (turned["equal"] / turned["least"] - 1))
     assert [round(x / 100) for x in own] == [int(x) for x in told.groups()]
@@ -808,7 +808,7 @@ def test_magnet_of_the_lab_has_no_resonance_below_its_start_frequency():
 def test_half_steps_are_lost_in_multiples_of_eight():
     (call,) = re.findall(r"Stepper\([^()]*\)", cells("13")["half-explorer"])
     motor = eval(call, {"Stepper": Stepper})
-    assert "the table has eight rows" in cells("13")["missed-look"]
+    assert "its table has eight rows" in cells("13")["missed-look"]
     assert "A multiple of eight" in cells("13")["half-look"] and len(motor.currents) == 8
     lost = {f: motor.run(np.arange(1, 49) / f, np.ones(48)).lost for f in range(160, 501, 20)}
     assert lost[160] == 0 and max(lost.values()) > 0 and not any(n % 8 for n in lost.values())

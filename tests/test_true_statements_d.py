@@ -348,7 +348,7 @@ def test_elbows_are_swapped_on_the_stated_side():
             if x * elbow[1] - 0.5 * elbow[0] > 0:  # the elbow is to the left of the line to the tip
                 sides.append("right" if x > 0 else "left")
     assert sides == ["right"] * 4 + ["left"] * 4
-    assert [re.search(r"to its (\w+) the two", says)[1] for _, says, _ in said] == sides
+    assert [re.search(r"swapped to its (\w+)", says)[1] for _, says, _ in said] == sides
 
 
 def test_elbow_distances_link_ratio_and_lost_digits_are_as_stated():
@@ -424,7 +424,7 @@ def test_jump_of_both_angles_at_the_smallest_radius_is_as_stated():
 def test_quadratic_formula_in_terms_of_a_and_h_holds_for_any_lengths():
     told = cells("12")["elimination-look"]
     assert r"y_2 = a\,y_3 + |x_3|\,h, \qquad x_2 = a\,x_3 - \frac{|x_3|}{x_3}\,h\,y_3." in told
-    assert r"With $a = \frac12$ and $h \ge 0$ of section 2" in told
+    assert r"With $a = \frac12$ and $h \ge 0$ from section 2" in told
     made = run_cells("12", "sides-setup")
     setup = {"np": np}
     exec(cells("12")["casts-player"].partition("\n\n\n")[0], setup)

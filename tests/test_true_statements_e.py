@@ -661,8 +661,10 @@ def test_greedy_rule_is_compared_with_the_best_of_all_choices():
 
 def test_least_movement_per_task_is_the_same_in_both_replies():
     question, options, _ = asked("three_levers.p10")
-    (each,) = numbers(r"rule of least movement, the joints turn by (\d+)° in each task", question)
-    (wide,) = numbers(r"the range of alpha is (\d+)° wide", question)
+    (each,) = numbers(
+        r"rule of least movement, the joints turn by (\d+)° per task on average", question
+    )
+    (wide,) = numbers(r"the range of alpha at a target is (\d+)° wide", question)
     (twice,) = numbers(r"would have to add (\d+)° to every task, about twice", options[2].reason)
     assert abs(twice - 2 * each) <= 1 and twice / wide == pytest.approx(2, abs=0.1)
     text = flat("09", "race-look")
