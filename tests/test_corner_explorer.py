@@ -262,6 +262,24 @@ def test_numbers_of_both_scales_are_whole_for_a_short_motion(browser, opened, wi
         shown.page.close()
 
 
+def test_opening_curves_are_drawn_and_named_once_the_motion_differs(browser, opened):
+    with browser.new_context(viewport={"width": 900, "height": 800}) as wide:
+        wide.add_init_script(RECORD)
+        shown = opened(corner(), IRB140, within=wide)
+        blend_slider = shown.rk.get_by_role("slider", name="blend").first
+        opening = float(blend_slider.input_value())
+        for value, differs in ((opening, False), (opening + 0.1, True), (opening, False)):
+            shown.type("blend", value)
+            shown.look()
+            words = {
+                word["text"]
+                for each in shown.page.evaluate("canvasWords()")
+                for word in each["words"]
+            }
+            assert "q3" in words and ("faint: the opening motion" in words) == differs
+        shown.page.close()
+
+
 def test_page_reports_a_motion_out_of_reach(opened):
     far = Transform(VIA.rotation, (0.9, -0.1, 0.8))
     shown = opened(corner(IRB140, START, far, GOAL), IRB140)
@@ -279,7 +297,7 @@ def test_every_canvas_follows_the_theme_and_is_printed(opened):
     shown.look()
     assert shown.rk.locator("canvas:visible").count() == 3
     assert shown.rk.locator(".rk-told").is_visible()
-    assert not shown.rk.locator(".rk-handle:visible").count()
+    assert shown.rk.locator(".rk-handle:visible").count() == 1  # the ring at the middle of the path
     boxes = shown.rk.locator("input:visible")
     assert boxes.count() == 2 and all(box.get_attribute("type") == "number" for box in boxes.all())
 

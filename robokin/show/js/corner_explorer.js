@@ -69,8 +69,9 @@ export function cornerExplorer(root, data) {
       clock.tell();
       stage.say(notes(data, {...found, jumps: []}).join(" "));
       told.tell(sentences(data, found, worst, sure !== null));
-      const before = state.duration === data.start_values.duration ? {rows, gaps} : null,
-        panel = panelOf(data, found, found.a, ORDER, parts.sample(), before);
+      const same = found.a.every((row, i) => row.every((a, j) => Object.is(a, rows[i][j]))),
+        opening = same || state.duration !== data.start_values.duration ? null : {rows, gaps},
+        panel = panelOf(data, found, found.a, ORDER, parts.sample(), opening);
       for (const line of panel.lines)
         line.faint = worst.length > 0 && !worst.some(({joint}) => joint === line.joint);
       const curves = {panels: [panel], large: 0, names: []};
