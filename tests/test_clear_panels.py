@@ -7,10 +7,22 @@ import numpy as np
 import pytest
 import test_player
 from canvas_words import LINES, RECORD
+from conftest import awake
 from test_clear_pictures import PHONE, TO_END, shown
 
-from robokin import IRB140, PUMA560, deg, spbu_arm, two_link
-from robokin.show import animate, elbow_explorer, joint_explorer
+from robokin import (
+    IRB140,
+    PUMA560,
+    SCARA,
+    ScaraPose,
+    blend,
+    deg,
+    differentiate,
+    follow,
+    spbu_arm,
+    two_link,
+)
+from robokin.show import animate, elbow_explorer, joint_explorer, plot_joints
 from robokin.show.palette import PAGE
 
 page = test_player.page
@@ -40,6 +52,30 @@ def test_text_of_a_jump_is_beside_its_line(page, tmp_path, width):
         left, _, wide, _ = word["box"]
         assert 5 < max(left - x, x - left - wide) < 7, word["text"]
     assert texts[0]["text"].startswith("with (int): ") or width < 390
+
+
+@pytest.mark.parametrize("width", [*PHONE, 900])
+def test_size_of_a_jump_is_at_its_line_even_without_room_for_words(page, tmp_path, width):
+    t = np.linspace(0, 20, 1001)
+    stations = ScaraPose([(0.2, 0.3, 0.12), (0.4, 0.1, 0), (0.2, -0.2, 0.2)], [0, np.pi, np.pi / 2])
+    q = follow(SCARA, SCARA.ik(blend(*stations, 0, t / 20)), SCARA.branch(+1))
+    plot = plot_joints(SCARA, t, q, differentiate(q, t))
+    page.add_init_script(RECORD)
+    page.set_viewport_size({"width": width, "height": 900})
+    (tmp_path / "view.html").write_text(
+        f"<!doctype html><meta charset=utf-8>{plot._repr_mimebundle_()['text/html']}"
+    )
+    page.goto((tmp_path / "view.html").as_uri())
+    awake(page)
+    page.wait_for_function("canvasWords().length > 0")
+    texts = [word["text"] for word in page.evaluate("canvasWords()[0].words")]
+    near = np.array([10 - 2e-6, 10 - 1e-6, 10, 10 + 1e-6])
+    before = follow(SCARA, SCARA.ik(blend(*stations, 0, near / 20)), SCARA.branch(+1))[:, 2]
+    slopes = np.diff(before) / np.diff(near) / deg
+    size = f"{abs(slopes[2] - slopes[1]):.1f} °/s"
+    assert [text for text in texts if text.endswith(size)] == [
+        "speed jumps by " * (width == 900) + size
+    ]
 
 
 @pytest.mark.parametrize("size", [-302.1, -180.5, -20, 179, 302.1, 360])

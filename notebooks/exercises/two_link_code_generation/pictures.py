@@ -100,7 +100,7 @@ def p8_view() -> Any:
     ax.plot(turns[~lost], h2[~lost] * 1e16, ".", color=FIRST, ms=3)
     ax.plot(turns[lost], h2[lost] * 1e16, "x", color=ALARM, ms=4)
     ax.set_xlabel("direction of the tip, \N{DEGREE SIGN}")
-    ax.set_ylabel("square of h, 1e\N{MINUS SIGN}16")
+    ax.set_ylabel("square of h (no unit), 1e\N{MINUS SIGN}16")
     ax.set_title(f"No answer at the crosses: {facts['lost']} of {facts['count']} tips")
     picture.tight_layout()
     return picture

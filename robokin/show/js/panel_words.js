@@ -66,8 +66,8 @@ function cover({lines, near}, ys, times, x, [left, right]) {
 
 /**
  * The text of at most three marks: next to their lines, almost clear of the curves and clear of the
- * limits; without the name of the arm where there is room only for the rest. The sentences above
- * the panels tell what has no such place.
+ * limits; without the name of the arm, or only the size of the jump, where there is no room for
+ * more. The sentences above the panels tell what has no such place.
  * @param {Context} g
  * @param {Mark[]} marks
  * @param {Place} x
@@ -82,7 +82,7 @@ function noted(g, marks, x, [left, right, top, bottom], cost) {
     /** @type {?Box} */
     let best = null;
     let least = MOST;
-    for (const words of [text, text.replace(/^.*: /, "")]) {
+    for (const words of [text, text.replace(/^.*: /, ""), text.replace(/^.* by /, "")]) {
       if (!text || best || notes.length > 2) continue;
       const w = g.measureText(words).width,
         taken = notes.map(([, place]) => place);
