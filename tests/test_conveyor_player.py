@@ -125,6 +125,8 @@ def test_title_asks_for_what_the_view_counts(monkeypatch):
     monkeypatch.setattr("robokin.show.conveyor.animate", lambda *given, **named: named["names"])
     assert conveyor_player(0.2, [0, 1], 2) == ["arm 1", "arm 2"]
     assert conveyor_player(0.2, [0, 0.1], 2) == ["arm 2", "arm 1"]
+    # four arms miss some only under "first come"
+    assert conveyor_player(0.2, [0, 1], 4, rules=True)[0] == "arm 4"
 
 
 @pytest.mark.parametrize("arms", [1, 3])

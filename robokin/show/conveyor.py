@@ -62,9 +62,9 @@ def conveyor_player(
     The clock starts when about the 116th object reaches the first window. Since then, the numbers
     above the arms and the curves count the objects brought to the bins, and "missed" those that
     have left the last window; such an object has a dot. A strip along the belt marks each window.
-    An arrow shows where the belt moves. For several arms that miss nothing, the title asks about
-    the last one if the slider changes the spread, so its curve is the first one, with the strongest
-    line. Raises ValueError if a number is outside these ranges.
+    An arrow shows where the belt moves. If the slider changes the spread, and several arms miss
+    nothing by the first rule, the title asks about the last arm: its curve is the first one, with
+    the strongest line. Raises ValueError if a number is outside these ranges.
     """
     speeds, shares = _belts(v, spread)
     count, mean = whole(arms, "arms", 1, BUSIEST), length(gap, "gap")
@@ -106,7 +106,7 @@ def conveyor_player(
     if speeds.ndim:
         one_arm = dict(reversed(one_arm.items()))  # the first one has the large panel
     # whether the title asks about the last arm, which is then the first: it has the strongest curve
-    last = count > 1 and not speeds.ndim and not missed.any()
+    last = count > 1 and not speeds.ndim and not missed[(0,) * (len(words) > 1)].any()
     order = slice(None, None, -1 if last else 1)
     return animate(
         [machine] * count,
