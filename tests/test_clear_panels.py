@@ -6,9 +6,9 @@ import re
 import numpy as np
 import pytest
 import test_player
-from canvas_words import LINES, RECORD
+from canvas_words import LINES, NEXT, RECORD
 from conftest import awake
-from test_clear_pictures import PHONE, TO_END, shown
+from test_clear_pictures import PHONE, RINGS, TO_END, TO_VALUES, shown
 
 from robokin import (
     IRB140,
@@ -76,6 +76,66 @@ def test_size_of_a_jump_is_at_its_line_even_without_room_for_words(page, tmp_pat
     assert [text for text in texts if text.endswith(size)] == [
         "speed jumps by " * (width == 900) + size
     ]
+
+
+def counting(arms=1):
+    """Arms that turn at a constant speed, of two, and count their turns by 0.1 rad."""
+    t = np.linspace(0, 2, 401)
+    turned = np.outer([0.75, 1], t)
+    q = np.stack([turned, -turned], axis=-1)
+    numbers = {"count": np.floor(10 * turned + 1e-9), "turned, rad": turned}
+    return animate(
+        [ARM] * arms,
+        t,
+        [q] * arms,
+        joints=[],
+        slider=("speed", [0.75, 1]),
+        quantities={name: [each] * arms if arms > 1 else each for name, each in numbers.items()},
+    )
+
+
+def test_counts_have_steps_and_other_quantities_do_not(page, tmp_path):
+    """A count of 2.6 does not exist: the dot is at a whole number, too."""
+    count, turned = counting().data["quantities"]
+    assert (count["steps"], turned["steps"]) == (True, False)
+    t = np.array(counting().data["times"])
+    [numbers] = count["values"]
+    found = test_player.unpacked(numbers, 1, len(t))[..., 0]
+    assert found.tolist() == np.floor(np.outer([7.5, 10], t) + 1e-9).tolist(), "inexact counts"
+    shown(page, counting(), tmp_path, 900, "max", "speed", LINES, RINGS)
+    for panel, whole in (("count", True), ("turned, rad", False)):
+        page.get_by_label("large panel").select_option(panel)
+        for tick in (3, 77, 151, 222, 299, 371):
+            page.evaluate(TO_VALUES, {"time": tick})
+            page.evaluate(NEXT)
+            [lines, spots] = page.evaluate(
+                "(({lines, spots}) => [lines, spots])(document.querySelectorAll('canvas')[1])"
+            )
+            # the faint curve of the opening motion is thinner
+            curves = [line["points"] for line in lines if len(line["points"]) > 20]
+            assert len(curves) == 4, "two panels, two curves each"
+            large = curves[:2] if whole else curves[2:]
+            for points in large:
+                moves = np.diff(points, axis=0)
+                assert ((moves == 0).any(axis=1).all()) == whole
+            points = np.array(large[1])
+            x, y, _ = [spot for spot in spots if spot[2] == 4][0 if whole else 1]
+            if whole:
+                assert y == points[points[:, 0] <= x][-1, 1]
+            else:
+                assert y == pytest.approx(np.interp(x, *points.T), abs=0.01)
+
+
+@pytest.mark.parametrize(("arms", "faint"), [(1, 2), (2, 4), (3, 0)])
+def test_no_faint_curves_among_those_of_many_arms(page, tmp_path, arms, faint):
+    shown(page, counting(arms), tmp_path, 900, "max", "speed", LINES, RECORD)
+    [lines, words] = page.evaluate(
+        "[document.querySelectorAll('canvas')[1].lines, canvasWords()[1].words]"
+    )
+    curves = [line for line in lines if len(line["points"]) > 20]
+    assert len(curves) == 2 * arms + faint
+    told = "faint: the opening motion" in [word["text"] for word in words]
+    assert told == (faint > 0)
 
 
 @pytest.mark.parametrize("size", [-302.1, -180.5, -20, 179, 302.1, 360])

@@ -8,7 +8,8 @@ from robokin.jobs.conveyor import ALONG, BIN, GAP, LINKS, WINDOW, serve, spaced,
 from robokin.show import conveyor_player
 
 SPREADS = [0.0, 0.8]
-START = 120 * 0.15 / 0.25  # s: when the clock of the four arms starts
+BEGIN = 116  # so many objects have come in when the clock starts
+START = BEGIN * 0.15 / 0.25  # s: when the clock of the four arms starts
 
 
 @pytest.fixture(scope="module")
@@ -83,7 +84,7 @@ def test_player_shows_a_belt_of_ones_own(monkeypatch):
     monkeypatch.setattr("robokin.show.conveyor.animate", lambda *given, **named: (given, named))
     own, gap = [0.35, -0.3, 0.25], 0.17
     (_, clock, motions), named = conveyor_player(0.21, SPREADS, 2, bin_place=own, gap=gap, seed=82)
-    start = 120 * gap / 0.21
+    start = BEGIN * gap / 0.21
     (brought,) = named["quantities"].values()
     walls = np.array([face for face in named["faces"] if np.ptp(np.array(face)[:, 2])])
     for k, spread in enumerate(SPREADS):
@@ -119,6 +120,32 @@ def test_title_asks_for_what_the_view_counts(monkeypatch):
     faster = conveyor_player([0.1, 0.2], 0.5, 1)
     assert faster == "Spread 0.5: how many objects does one arm miss?"
     assert conveyor_player([0.1, 0.2], 1, 2) == "Spread 1: how many objects do 2 arms miss?"
+    # two arms miss some, so that is the question, and the curves are in the order of the arms
+    assert conveyor_player(0.2, [0, 1], 2) == "200 mm/s: how many objects do 2 arms miss?"
+    monkeypatch.setattr("robokin.show.conveyor.animate", lambda *given, **named: named["names"])
+    assert conveyor_player(0.2, [0, 1], 2) == ["arm 1", "arm 2"]
+    assert conveyor_player(0.2, [0, 0.1], 2) == ["arm 2", "arm 1"]
+    # four arms miss some only under "first come"
+    assert conveyor_player(0.2, [0, 1], 4, rules=True)[0] == "arm 4"
+
+
+@pytest.mark.parametrize("arms", [1, 3])
+def test_arrow_on_the_belt_points_in_its_direction(monkeypatch, arms):
+    """Before the first window, and in the middle of the belt."""
+    monkeypatch.setattr("robokin.show.conveyor.animate", lambda *given, **named: (given, named))
+    (_, clock, _), named = conveyor_player(0.2, SPREADS, arms)
+    faces = list(map(np.array, named["faces"]))
+    [arrow] = [face for face in faces if len(face) > 4]
+    belt = max(faces, key=lambda face: np.ptp(face[:, 1]))
+    low, high = belt.min(axis=0), belt.max(axis=0)
+    assert (arrow >= low).all() and (arrow <= high).all() and arrow[:, 1].max() < ALONG[0]
+    assert arrow[:, 0].mean() == pytest.approx(WINDOW[0, 0])
+    tip = arrow[arrow[:, 1].argmax()]
+    assert (arrow[:, 1] == tip[1]).sum() == 1 and tip[0] == WINDOW[0, 0]
+    [lane] = [lane[0] for lane, _ in named["circles"][:1]]
+    moves = np.diff(lane[np.isfinite(lane).all(axis=-1)][:10], axis=0)
+    assert (moves[:, 1] > 0).all(), "objects move towards the tip"
+    assert np.ptp(arrow[:, 0]) > np.ptp(arrow[arrow[:, 1] == arrow[:, 1].min(), 0])
 
 
 def test_missed_objects_are_counted_and_have_a_dot(monkeypatch):
@@ -136,7 +163,7 @@ def test_missed_objects_are_counted_and_have_a_dot(monkeypatch):
     for rule in (0, 1):
         for k, v in enumerate(speeds):
             (trips,) = serve(offsets, v, ALONG, ways_from(), first_come=rule == 1)
-            gone = (np.delete(offsets, trips.objects) + 0.8) / v - 120 * GAP / v
+            gone = (np.delete(offsets, trips.objects) + 0.8) / v - BEGIN * GAP / v
             wanted = [((gone > 0) & (gone <= t)).sum() for t in clock]
             assert missed[rule, k].tolist() == wanted
             dots = np.array([lane[rule, k] for lane in named["points"]])
@@ -146,7 +173,7 @@ def test_missed_objects_are_counted_and_have_a_dot(monkeypatch):
                 seen = dots[:, n][np.isfinite(dots[:, n, 0])]
                 assert sorted(seen[:, 1]) == pytest.approx(sorted(left))
                 assert np.allclose(seen[:, [0, 2]], [0.6, 20 * mm])
-    assert missed[..., -1].tolist() == [[0, 0, 1], [0, 1, 2]]
+    assert missed[..., -1].tolist() == [[0, 1, 1], [0, 3, 4]]
 
 
 def test_camera_does_not_depend_on_the_bin():

@@ -363,3 +363,27 @@ def test_numbers_used_in_the_predictions_are_correct():
     # the range over other orders of the same gaps
     assert (facts["least"], facts["greatest"]) == (80, 90)
     assert facts["first"] == 95
+
+
+def test_four_arms_that_serve_in_order_take_what_the_prediction_says():
+    """The objects are evenly spaced; each arm gets what the arms before it let pass."""
+    facts, c = LAB.module("predictions")["p3"](), 2 * ways(BIN).min()
+    left, takes, costs = 0.15 * np.arange(1, 201), [], []
+    while len(left):
+        free, spots, rest = 0.0, [], []
+        for arrival in left / 0.2:
+            at = arrival + (Y - Y[0]) / 0.2
+            in_time = np.flatnonzero(at >= free + ways(BIN) - 1e-9)
+            if len(in_time):
+                free = at[in_time[0]] + ways(BIN)[in_time[0]]
+                spots.append(in_time[0])
+            else:
+                rest.append(arrival * 0.2)
+        left = np.array(rest)
+        takes.append(len(spots))
+        costs.append(2 * ways(BIN)[spots].mean())
+    assert facts["takes"] == takes == [50, 50, 49, 51] and facts["arms"] == 4
+    assert facts["costs"] == pytest.approx(costs) and min(costs[:3]) > 2 * c
+    assert facts["gets"] == [200, 150, 100, 51] and costs[3] == pytest.approx(c)
+    assert facts["missed_by_two"] == 100 and facts["missed_by_three"] == 51
+    assert sum(facts["soonest"]) == 200 and facts["least"] == 2

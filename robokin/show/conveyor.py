@@ -16,7 +16,7 @@ from .checks import yes
 from .player import Player, animate
 from .things import Mark
 
-OBJECTS, BEGIN = 200, 120  # in the stream; about so many have come in when the clock starts
+OBJECTS, BEGIN = 200, 116  # in the stream; about so many have come in when the clock starts
 PITCH = 1.0  # m, between neighbouring arms
 SHOWN = 6.0  # seconds of the motion
 SAMPLES = 1201
@@ -30,9 +30,11 @@ RULES = ("back soonest", "first come")
 EDGE = 60 * mm  # half the width of the belt
 STRIP = 40 * mm  # the width of the strip beside a window, and its distance from the belt
 SPECK = 1 * mm  # the radius of the ball at a label, which is hardly visible
-OVER = 600 * mm  # the height of a count; no part of an arm at work is higher than 500 mm
+OVER = 540 * mm  # the height of a count; no part of an arm at work is higher than 500 mm
 VIEW = -30 * deg, 22 * deg  # of the camera: the same for every bin, so that pictures compare
 SQUARE = np.array([[-1, -1], [1, -1], [1, 1], [-1, 1]])
+# x and y of an arrow on the belt, from its middle: it points in the direction of motion
+ARROW = np.array([[-15, -70], [15, -70], [15, 0], [45, 0], [0, 70], [-45, 0], [-15, 0]]) * mm
 
 
 def conveyor_player(
@@ -57,12 +59,12 @@ def conveyor_player(
     bin_place  the place (3,) of the bin, in m: see `ways_from`
     gap, seed  mean gap between two objects, 0.1 to 0.5 m, and the order of the gaps: see `spaced`
 
-    The clock starts when about the 120th object reaches the first window. Since then, the numbers
+    The clock starts when about the 116th object reaches the first window. Since then, the numbers
     above the arms and the curves count the objects brought to the bins, and "missed" those that
     have left the last window; such an object has a dot. A strip along the belt marks each window.
-    For several arms, the title asks about the last one if the slider changes the spread, so its
-    curve is the first one, with the strongest line. Raises ValueError if a number is outside these
-    ranges.
+    An arrow shows where the belt moves. If the slider changes the spread, and several arms miss
+    nothing by the first rule, the title asks about the last arm: its curve is the first one, with
+    the strongest line. Raises ValueError if a number is outside these ranges.
     """
     speeds, shares = _belts(v, spread)
     count, mean = whole(arms, "arms", 1, BUSIEST), length(gap, "gap")
@@ -103,21 +105,24 @@ def conveyor_player(
     one_arm = {"objects brought": brought[0], "objects missed": missed}
     if speeds.ndim:
         one_arm = dict(reversed(one_arm.items()))  # the first one has the large panel
-    return animate(  # the last arm first: the first arm has the strongest curve
+    # whether the title asks about the last arm, which is then the first: it has the strongest curve
+    last = count > 1 and not speeds.ndim and not missed[(0,) * (len(words) > 1)].any()
+    order = slice(None, None, -1 if last else 1)
+    return animate(
         [machine] * count,
         clock,
-        moves[::-1],
-        names=[f"arm {k}" for k in range(count, 0, -1)],
+        moves[order],
+        names=[f"arm {k + 1}" for k in range(count)][order],
         slider=("belt speed, mm/s", speeds / mm) if speeds.ndim else ("spread", shares),
         switch=("rule", words) if len(words) > 1 else None,
-        bases=feet[::-1] if count > 1 else None,
+        bases=feet[order] if count > 1 else None,
         circles=[(lane, RADIUS) for lane in balls],
         points=dots,
         faces=_belt(feet) + _boxes(feet, place),
         things=_labels(feet, brought, missed),
         joints=[],
-        quantities={"objects brought": brought[::-1]} if count > 1 else one_arm,
-        title=_title(speeds, shares, count),
+        quantities={"objects brought": brought[order]} if count > 1 else one_arm,
+        title=_title(speeds, shares, count, last),
         view=VIEW,
     )
 
@@ -142,12 +147,13 @@ def _belts(v: ArrayLike, spread: ArrayLike) -> tuple[Floats, Floats]:
     return speeds, shares
 
 
-def _title(speeds: Floats, shares: Floats, count: int) -> str:
-    if speeds.ndim:
-        who = f"do {count} arms" if count > 1 else "does one arm"
-        return f"Spread {shares:g}: how many objects {who} miss?"
-    who = f"arm {count}" if count > 1 else "one arm"
-    return f"{speeds / mm:.0f} mm/s: how many objects does {who} bring?"
+def _title(speeds: Floats, shares: Floats, count: int, last: bool) -> str:
+    given = f"Spread {shares:g}" if speeds.ndim else f"{speeds / mm:.0f} mm/s"
+    who = f"do {count} arms" if count > 1 else "does one arm"
+    if last:
+        who = f"does arm {count}"
+    does = "bring" if last or count == 1 and not speeds.ndim else "miss"
+    return f"{given}: how many objects {who} {does}?"
 
 
 def _motion(trips: Trips, times: Floats, at_bin: Floats) -> Floats:
@@ -212,15 +218,19 @@ def _lanes(places: Sequence[Floats]) -> Floats:
 
 
 def _belt(feet: Floats) -> list[list[list[float]]]:
-    """Return the polygons of the belt, and of a strip in front of it for each window."""
+    """Return the polygons of the belt, of a strip in front of it for each window, and of the arrow
+    at its beginning.
+    """
     ends, middle = ALONG[[0, -1]] + feet[:, 1:], WINDOW[0, 0]
     begin = middle + EDGE + STRIP
     belt = middle - EDGE, middle + EDGE, ends.min() - BEYOND, ends.max() + BEYOND
     strips = [(begin, begin + STRIP, low, high) for low, high in ends]
-    return [
+    arrow = ARROW + [middle, ends.min() - BEYOND / 2]
+    faces = [
         [[left if x < 0 else right, low if y < 0 else high, 0] for x, y in SQUARE]
         for left, right, low, high in [belt, *strips]
     ]
+    return [*faces, [[x, y, 0] for x, y in arrow.tolist()]]
 
 
 def _labels(feet: Floats, brought: Sequence[Floats], missed: Floats) -> list[Mark]:

@@ -78,11 +78,13 @@ class PagePanel(TypedDict):
 
 class PageQuantity(TypedDict):
     """A panel of a quantity that does not belong to a joint, such as a distance: its name with the
-    unit, its scale, and the numbers of each arm.
+    unit, its scale, and the numbers of each arm. The curves of whole numbers have steps, because a
+    count has no values in between.
     """
 
     label: str
     scale: Scale
+    steps: bool
     values: list[Packed]
 
 

@@ -72,8 +72,12 @@ def joint_panel(
 def quantity_panel(name: str, values: Floats, kept: Ints) -> PageQuantity:
     """Return the panel of a quantity (arms, motions, samples)."""
     finite = values[np.isfinite(values)]
+    whole = bool(len(finite) == values.size and (finite % 1 == 0).all())
+    # coarse steps are exact for whole numbers, and need less room
+    finest = 2 * max(1, abs(finite).max()) if whole else FINEST[0]
     return {
         "label": name,
         "scale": scale(*((finite.min(), finite.max()) if len(finite) else (0, 1))),
-        "values": [packed(one[:, kept, None], FINEST[0]) for one in values],
+        "steps": whole,
+        "values": [packed(one[:, kept, None], finest) for one in values],
     }

@@ -7,9 +7,9 @@ import numpy as np
 from robokin import mm
 from robokin.jobs.conveyor import ALONG, GAP, serve, spaced, ways_from
 from robokin.show import figure
-from robokin.show.palette import COMPARED, REMARK
+from robokin.show.palette import COMPARED, FIRST_AREA, INK, PAPER, REMARK, SECOND_AREA
 
-from .predictions import SPEEDS, p1, p2, p9
+from .predictions import SPEEDS, p1, p2, p3, p9
 from .shared import COUNT
 
 
@@ -38,6 +38,33 @@ def p2_view() -> Any:
         ax.text(208, np.median(ALONG[trips.places]) / mm, name, color=color, va="center")
     ax.set(xlabel="time, s", ylabel="position along the belt, mm", xlim=(0, 265), ylim=(-430, 430))
     ax.set_title(f"{facts['soon']} objects near the bin, or {facts['first']} far from it")
+    fig.tight_layout()
+    return fig
+
+
+def p3_view() -> Any:
+    facts = p3()
+    soonest, takes, c = facts["soonest"], facts["takes"], facts["c"]
+    says = (
+        f"The {COUNT} objects, shared out among the arms. Back soonest: {len(soonest)} arms take "
+        f"{' and '.join(map(str, soonest))}, {c:.1f} s each. First come: {len(takes)} arms take "
+        f"{', '.join(map(str, takes))}; only the last of them needs {c:.1f} s for each, the others "
+        f"about {facts['costs'][0]:.1f} s."
+    )
+    fig = figure(says, height=2.6)
+    ax = fig.subplots()
+    costs = [[c] * len(soonest), facts["costs"]]
+    for row, (shares, times) in enumerate(zip((soonest, takes), costs, strict=True)):
+        done = 0
+        for k, (share, time) in enumerate(zip(shares, times, strict=True), 1):
+            color = (FIRST_AREA, SECOND_AREA)[row]
+            ax.barh(-row, share, 0.7, done, color=color, edgecolor=PAPER, lw=2)
+            each = f"arm {k}: {share} objects,\n{time:.2f} s each"
+            ax.text(done + share / 2, -row, each, color=INK, ha="center", va="center")
+            done += share
+    ax.set(xlabel="objects, arm after arm", xlim=(0, COUNT), yticks=[0, -1])
+    ax.set_yticklabels(["back soonest", "first come"])
+    ax.set_title(f"{len(soonest)} arms that are back soonest, or {len(takes)} that serve in order")
     fig.tight_layout()
     return fig
 

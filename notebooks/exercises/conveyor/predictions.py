@@ -12,6 +12,7 @@ from robokin.jobs.conveyor import ALONG, GAP, serve, spaced, ways_from
 
 from .shared import COUNT, taken
 
+MOST_ARMS = 8
 SPEEDS = list(range(60, 141, 5))  # mm/s
 
 
@@ -64,6 +65,39 @@ def missed(v: float, spread: float = 0.5, seed: int = 8, first_come: bool = Fals
 def speed(lost: list[int]) -> int:
     """The greatest speed up to which no object is lost."""
     return SPEEDS[int(np.flatnonzero(np.cumsum(lost) == 0)[-1])]
+
+
+@cache
+def p3() -> Mapping[str, Any]:
+    """What each arm of a line takes of evenly spaced objects, and the mean time of an object."""
+    v, c = 200 * mm, 2 * float(ways_from().min())
+    lines = {}
+    for first_come in (False, True):
+        found = serve(
+            spaced(COUNT, GAP), v, ALONG, ways_from(), arms=MOST_ARMS, first_come=first_come
+        )
+        lines[first_come] = [each for each in found if len(each.objects)]
+    takes = [len(each.objects) for each in lines[True]]
+    costs = [2 * float(ways_from()[each.places].mean()) for each in lines[True]]
+    least, arms = len(lines[False]), len(takes)
+    return {
+        "gap": GAP / mm,
+        "v": v / mm,
+        "load": c * v / GAP,
+        "c": c,
+        "period": GAP / v,
+        "least": least,
+        "one_more": least + 1,
+        "arms": arms,
+        "takes": takes,
+        "gets": [COUNT - sum(takes[:k]) for k in range(arms)],
+        "costs": costs,
+        "soonest": [len(each.objects) for each in lines[False]],
+        "missed_by_two": COUNT - sum(takes[:2]),
+        "missed_by_three": COUNT - sum(takes[:3]),
+        **dict(zip(("first_cost", "second_cost", "third_cost", "last_cost"), costs, strict=False)),
+        "right": ("the bound", "one more", "two more")[arms - least],
+    }
 
 
 @cache

@@ -150,7 +150,8 @@ function lineOf(data, arm, motion, opening, of) {
   const during = motion => ({values: of(motion), gaps: new Set(data.arms[arm].gaps[motion])});
   return {
     ...during(motion),
-    opening: motion === opening ? null : during(opening),
+    // among the curves of more than two arms, it could not be told from them
+    opening: motion === opening || data.arms.length > 2 ? null : during(opening),
     joint: -1,
     arm,
     axis: 0,
@@ -207,8 +208,8 @@ function marksOf(data, {name, leaps, jumps}, order, motion) {
  * @returns {Panel}
  */
 function quantityPanel(data, k, motion, opening, of) {
-  const {label, scale} = data.quantities[k];
-  const lines = of.map((values, arm) => lineOf(data, arm, motion, opening, values));
+  const {label, scale, steps} = data.quantities[k];
+  const lines = of.map((values, arm) => ({...lineOf(data, arm, motion, opening, values), steps}));
   return {label, axes: [{unit: "", scale}], lines, near: [], marks: []};
 }
 

@@ -127,6 +127,7 @@ export interface PagePanel {
 export interface PageQuantity {
   label: string;
   scale: Scale;
+  steps: boolean;
   values: Packed[];
 }
 

@@ -30,6 +30,7 @@ import {lineColor, panelWords} from "./panel_words.js";
  * @property {boolean} faint  whether the line is faint, because it is not watched
  * @property {Set<number>} gaps  samples after which the line breaks
  * @property {?[low: number, high: number]} limits
+ * @property {boolean} [steps]  whether it is constant until the next sample, as a count is
  * @property {number} now  its current value
  */
 /**
@@ -133,7 +134,7 @@ export function drawPanel(ground, panel, ticks, now) {
 function drawLines(ground, lines, ys) {
   lines.forEach((line, k) => {
     if (!line.opening || line.faint) return;
-    const points = placed(ground, line.opening, ys[k]);
+    const points = placed(ground, {...line, ...line.opening}, ys[k]);
     stroke(ground.g, points, clear(lineColor(line), FAINT), 1.2);
   });
   for (const faint of [true, false])
@@ -230,13 +231,14 @@ function band(g, at, side, left, right, color) {
 /**
  * The places of values, null where the line breaks.
  * @param {Ground} ground
- * @param {Pick<Line, "values" | "gaps">} line
+ * @param {Pick<Line, "values" | "gaps" | "steps">} line
  * @param {Place} y
  */
-function placed({times, x}, {values, gaps}, y) {
+function placed({times, x}, {values, gaps, steps}, y) {
   /** @type {(?Pixel)[]} */
   const points = [];
   values.forEach((value, i) => {
+    if (steps && i) points.push([x(times[i]), y(values[i - 1])]);
     points.push(Number.isNaN(value) ? null : [x(times[i]), y(value)]);
     if (gaps.has(i)) points.push(null);
   });

@@ -250,7 +250,8 @@ function armAt(arm, {i, share}) {
  */
 function showAt(panel, {i, share}) {
   for (const line of panel.lines) {
-    const {values, gaps} = line;
-    line.now = share && !gaps.has(i) ? values[i] + share * (values[i + 1] - values[i]) : values[i];
+    const {values, gaps, steps} = line,
+      still = steps || !share || gaps.has(i);
+    line.now = still ? values[i] : values[i] + share * (values[i + 1] - values[i]);
   }
 }
