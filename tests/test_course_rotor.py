@@ -210,7 +210,7 @@ def test_only_the_long_ramp_saves_every_step():
     lab = json.loads((NOTEBOOKS / "13_rotor.ipynb").read_text(encoding="utf-8"))
     source = {cell["id"]: "".join(cell["source"]) for cell in lab["cells"]}
     short, long, alone, end = re.search(
-        r"\$t_r\$ = (\S+) and (\S+): only (\S+) saves every step, but this ramp no longer reaches "
+        r"\$t_r\$ = (\S+) and (\S+): only (\S+) loses no step, but this ramp no longer reaches "
         r"(\d+)\.",
         source["ramp-look"],
     ).groups()

@@ -674,7 +674,7 @@ def test_a_load_torque_holds_the_rotor_back_as_stated():
     lag, sine, pulls = said(
         "13", "load-torque", r"The lag is (\d+)°: \$M \\sin (\d+)°\$ is (\d+) mN m"
     )
-    makes, fails = said("13", "load", r"Then set (\d+) and press .* set (\d+) and press")
+    makes, fails = said("13", "load", r"Then type (\d+) and press .* type (\d+) and press")
     slow, tempo = said(
         "13", "load-torque", r"With (\d+) mN m, it cannot follow even (\d+) pulses/s"
     )
@@ -774,8 +774,8 @@ def test_resonance_of_the_iron_rotor_is_where_the_lab_says():
     low, high, below, above = said(
         "13",
         "deeper-iron",
-        r"every whole frequency from (\d+) to (\d+), it loses steps, in threes, .* swings (\d+) to "
-        r"(\d+) times per second",
+        r"every whole number of pulses/s from (\d+) to (\d+), it loses steps, in threes, .* "
+        r"swings (\d+) to (\d+) times per second",
     )
     band = range(int(low), int(high) + 1)
     assert len(motor.currents) == 3 and last < low < high < first
@@ -798,7 +798,8 @@ def test_magnet_of_the_lab_has_no_resonance_below_its_start_frequency():
     least, top = said(
         "13",
         "missed-look",
-        r"Without a load, this motor loses none at any whole frequency from (\d+) to (\d+)\.",
+        r"Without a load, this motor loses none at any whole number of pulses/s from (\d+) to "
+        r"(\d+)\.",
     )
     motor = run("13", "load-hand")["motor"]
     lost = lost_at(motor, range(int(least), int(top) + 2), 400)

@@ -348,7 +348,9 @@ def test_elbows_are_swapped_on_the_stated_side():
             if x * elbow[1] - 0.5 * elbow[0] > 0:  # the elbow is to the left of the line to the tip
                 sides.append("right" if x > 0 else "left")
     assert sides == ["right"] * 4 + ["left"] * 4
-    assert [re.search(r"swapped to its (\w+)", says)[1] for _, says, _ in said] == sides
+    assert [
+        re.search(r"the other elbow for a tip to its (\w+)", says)[1] for _, says, _ in said
+    ] == sides
 
 
 def test_elbow_distances_link_ratio_and_lost_digits_are_as_stated():

@@ -634,9 +634,9 @@ def test_greedy_rule_is_compared_with_the_best_of_all_choices():
     question, options, right = asked("three_levers.p9")
     assert question.endswith("Which arm has turned its joints less in the end?")
     count, tours, _, most, rows = numbers(
-        r"On (\d+) of (\d+) random lists of (\d+) targets, the greedy arm turns over 5 % more than "
-        r"the planning arm, and (\d+) % more on the worst list. \(The plan uses the best of (\d+) "
-        r"postures",
+        r"On (\d+) of (\d+) random lists of (\d+) targets, the joints of the greedy arm turn more "
+        r"than 5 % farther than those of the planning arm, and (\d+) % farther on the worst list. "
+        r"\(The plan uses the best of (\d+) postures",
         options[right].reason,
     )
     lost = LEVERS["losses"]()

@@ -365,7 +365,7 @@ def test_time_of_section_5_is_that_of_the_slowest_joint():
 
 def test_wrong_programs_of_exercise_2_are_on_and_off_the_curve():
     words = flat("09", "yourturn-3")
-    assert "they choose another point of the curve S" in words
+    assert "they choose a different point on the curve S" in words
     assert "Others miss K or exceed a limit, so their postures are not on the curve." in words
     rng, tasks = np.random.default_rng(7), []
     while len(tasks) < 12:
