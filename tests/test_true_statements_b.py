@@ -302,7 +302,9 @@ def test_random_choice_turns_the_joints_more_by_the_stated_factor():
 
 def test_the_arm_with_arctan2_stays_within_its_limits_and_the_other_does_not():
     question, _, _ = asked("three_levers.p4")
-    first, last = map(int, re.search(r"from the direction (\d+)° to (\d+)°", question).groups())
+    first, last = map(
+        int, re.search(r"on a circle around O, from (\d+)° to (\d+)°", question).groups()
+    )
     facts = content("three_levers").module("predictions")
     RING, SAMPLE = facts["RING"], facts["SAMPLE"]
     KB = 2 * np.sin(SAMPLE / 2)  # gamma is the direction of K plus a constant angle

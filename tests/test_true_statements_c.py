@@ -253,7 +253,7 @@ def test_the_view_of_exercise_3_and_its_check_name_the_same_joints(who):
         inside += not past
     assert inside
     assert (
-        "Each joint is shifted by the whole turns that keep its motion inside its limits or, if"
+        "Each joint is shifted by whole turns so that its motion stays inside its limits or, if"
         in flat("02", "look-3-ask")
     )
 

@@ -483,7 +483,7 @@ def test_elbow_line_ends_at_the_stated_distance_from_full_stretch():
         assert np.sqrt(out @ out - 150.05**2) == pytest.approx(431.8 + np.hypot(431.8, 20.3))
     for m in (100 * mm, 10 * mm):
         assert LINE["stretched"](m).translation == pytest.approx(pose.translation + m * away)
-    assert "We take many random poses that the arm can reach" in flat("07", "count")
+    assert "We take many random poses within reach" in flat("07", "count")
 
 
 def test_arm_is_stretched_and_forearm_points_up_where_stated():
