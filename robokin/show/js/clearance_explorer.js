@@ -7,7 +7,7 @@ import {drawApproach} from "./approach_curve.js";
 import {fill, inWords} from "./blanks.js";
 import {clear, colors, number, spot, stroke} from "./canvas.js";
 import {scrubbing} from "./controls.js";
-import {copyButton} from "./copy.js";
+import {copyButton, plain} from "./copy.js";
 import {element, waiting} from "./elements.js";
 import {letterHandle} from "./letters.js";
 import {fk, origin} from "./kinematics.js";
@@ -15,7 +15,7 @@ import {least, outside} from "./levers.js";
 import {point} from "./mark.js";
 import {clamp} from "./rows.js";
 import {slider, stageOf, wordButton} from "./stage.js";
-import {degrees, plain} from "./turns.js";
+import {degrees} from "./turns.js";
 
 /** @import {ClearancePage} from "./page.js" */
 /** @import {Least, Motion} from "./approach.js" */

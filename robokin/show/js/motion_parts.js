@@ -6,12 +6,12 @@ import {motions} from "./blended.js";
 import {number} from "./canvas.js";
 import {clockRow, runningClock} from "./clock.js";
 import {scrubbing} from "./controls.js";
-import {copyButton} from "./copy.js";
+import {copyButton, plain} from "./copy.js";
 import {curvesView} from "./curves.js";
 import {element} from "./elements.js";
 import {exists, nowhere} from "./rows.js";
 import {menu, slider} from "./stage.js";
-import {lengths, plain} from "./turns.js";
+import {lengths} from "./turns.js";
 
 /** @import {MotionPage, PagePose, StartValues} from "./page.js" */
 /** @import {Motion} from "./blended.js" */

@@ -3,9 +3,10 @@
 import {lastOf} from "./bench.js";
 import {fill} from "./blanks.js";
 import {number} from "./canvas.js";
+import {plain} from "./copy.js";
 import {behind, holdingTorque, startFrequency, startingTorque, stepOf} from "./rotor.js";
 import {table} from "./table.js";
-import {degrees, plain} from "./turns.js";
+import {degrees} from "./turns.js";
 
 /** @import {MotorControl, PageMotors} from "./page.js" */
 /** @import {Bench} from "./bench.js" */

@@ -4,7 +4,7 @@
 import {fill} from "./blanks.js";
 import {number} from "./canvas.js";
 import {orbit} from "./controls.js";
-import {copyButton} from "./copy.js";
+import {copyButton, plain} from "./copy.js";
 import {element, waiting} from "./elements.js";
 import {alongCurve} from "./handles.js";
 import {cross, plus} from "./kinematics.js";
@@ -13,16 +13,16 @@ import {product} from "./rotations.js";
 import {clamp} from "./rows.js";
 import {frameOf, slider} from "./stage.js";
 import {table} from "./table.js";
-import {aboutAxis, degrees, lengths, plain, radians} from "./turns.js";
+import {aboutAxis, degrees, lengths, radians} from "./turns.js";
 
 /** @import {RotationPage} from "./page.js" */
-/** @import {Box, Point} from "./canvas.js" */
+/** @import {Point, Ring} from "./canvas.js" */
 /** @import {Camera} from "./camera.js" */
 /** @import {Handle} from "./handles.js" */
 
 /** @typedef {[angle: number, tilt: number]} State  degrees: of the rotation, and from n to v */
 /** @typedef {ReturnType<typeof products>} Products */
-/** @typedef {Products & {alt: string, handles: (cam: Camera) => Box[]}} Seen */
+/** @typedef {Products & {alt: string, handles: (cam: Camera) => Ring[]}} Seen */
 
 const TINY = 1e-9; // radians: angles that differ by less count as equal
 
