@@ -73,7 +73,7 @@ def aside(place, line):
     """The distance of a place from a line."""
     begin, end = line
     way = end - begin
-    share = np.clip((place - begin) @ way / (way @ way), 0, 1)
+    share = np.clip((place - begin) @ way / max(way @ way, 1e-9), 0, 1)
     return np.linalg.norm(place - begin - share * way)
 
 

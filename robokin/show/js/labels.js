@@ -119,7 +119,8 @@ function placed(
           if (cost >= least) break;
           if (x > u - r && x < u + wide + r && y > v - r && y < v + HIGH + r) cost += heavy;
         }
-        const led = cost < least && gap > unled ? leader([px, py], u, v, wide) : null;
+        const led =
+          cost < least && gap > unled ? leader([px, py], u, v, wide, along[1] ? 0 : 6) : null;
         if (led && crossed(close, led[0], [px, py])) cost += CROSSED;
         if (cost < least) [best, least] = [[u, v, led], cost];
       }
@@ -128,13 +129,13 @@ function placed(
 }
 
 /**
- * The line to a point from a label whose upper left corner is (u, v). It does not reach the dot at
+ * The line to a point from a label whose upper left corner is (u, v). It ends `gap` pixels before
  * the point.
- * @type {(at: Pixel, u: number, v: number, wide: number) => [Pixel, Pixel]}
+ * @type {(at: Pixel, u: number, v: number, wide: number, gap: number) => [Pixel, Pixel]}
  */
-function leader([px, py], u, v, wide) {
+function leader([px, py], u, v, wide, gap) {
   const [ex, ey] = [between(px, u, wide), between(py, v, HIGH)],
-    share = 6 / Math.hypot(ex - px, ey - py);
+    share = gap / Math.hypot(ex - px, ey - py);
   return [
     [ex, ey],
     [px + share * (ex - px), py + share * (ey - py)],
