@@ -90,6 +90,19 @@ def test_text_of_a_limit_is_next_to_its_own_side_of_the_zone(
         assert not any(line["width"] == 1 and line["color"] == word["color"] for line in lines)
 
 
+@pytest.mark.parametrize("view", [explored, circles])
+def test_dashes_of_one_elbow_do_not_fill_the_gaps_of_the_other(page, tmp_path, view):
+    """Parts of both circles of q2 coincide."""
+    shown(page, view(), tmp_path, 900, "none", "none", LINES)
+    lines = page.evaluate("document.querySelector('canvas').lines")
+    orange, paper = (PAGE[name][0].lower() for name in ("joint2", "paper"))
+    sides = [k for k, line in enumerate(lines) if line["color"] == orange and line["dash"]]
+    assert len(sides) == 2
+    for k in sides:
+        below = lines[k - 1]
+        assert below["color"] == paper and below["points"] == lines[k]["points"]
+
+
 def distance(box, lines):
     """The distance of a box from the nearest of several lines."""
     drawn = np.concatenate([along(line) for line in lines])
