@@ -100,7 +100,8 @@ function noted(g, marks, x, [left, right, top, bottom], cost) {
 
 /**
  * The text of the limits: next to their lines, clear of other text and almost clear of the curves;
- * without the word "limit" where there is room only for the rest. A limit for which there is no such place has only its band.
+ * without the word "limit" where there is room only for the rest. A limit for which there is no
+ * such place has only its band.
  * @param {Context} g
  * @param {Panel} panel
  * @param {Place[]} ys  the height of a value, for each line
