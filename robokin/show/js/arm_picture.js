@@ -246,11 +246,10 @@ function limb(g, p, q, width, rod) {
   const [edge, body, light] = rod
     ? [colors.rodEdge, colors.rod, colors.rodShine]
     : [colors.edge, colors.link, colors.shine];
-  /** @type {(p: Pixel) => Pixel} */
-  const up = ([x, y]) => [x - 0.16 * width, y - 0.2 * width];
   haloed(g, [p, q], edge, width);
   stroke(g, [p, q], body, width - 2);
-  stroke(g, [up(p), up(q)], light, 0.22 * width);
+  const up = [p, q].map(/** @returns {Pixel} */ ([x, y]) => [x - 0.16 * width, y - 0.2 * width]);
+  stroke(g, up, light, 0.22 * width);
 }
 
 /**

@@ -219,7 +219,7 @@ export function polygon(g, points, ...look) {
 }
 
 /** @param {string | CanvasGradient} fill */
-const isSolid = fill => typeof fill !== "string" || fill.length < 8;
+const isSolid = fill => !(/** @type {string} */ (fill).length > 7);
 
 /**
  * Draws a disc.

@@ -4,10 +4,10 @@
 
 import {approachOf, jointsOf, motionOf, nearestAt, postureAt} from "./approach.js";
 import {drawApproach} from "./approach_curve.js";
-import {fill, inWords} from "./blanks.js";
+import {fill, inWords, plain} from "./blanks.js";
 import {clear, colors, number, spot, stroke} from "./canvas.js";
 import {scrubbing} from "./controls.js";
-import {copyButton, plain} from "./copy.js";
+import {copyButton} from "./copy.js";
 import {element, waiting} from "./elements.js";
 import {letterHandle} from "./letters.js";
 import {fk, origin} from "./kinematics.js";

@@ -1,4 +1,4 @@
-// A button that copies text, and numbers as Python code.
+// A button that copies text.
 
 import {control} from "./elements.js";
 
@@ -30,10 +30,3 @@ export function copyButton(words, text) {
   });
   return button;
 }
-
-/**
- * A number as Python code.
- * @param {number} x
- * @param {number} decimals
- */
-export const plain = (x, decimals) => String(+x.toFixed(decimals));

@@ -4,9 +4,9 @@
 
 import {wrapped} from "./angles.js";
 import {excess, representative, within} from "./branches.js";
-import {fill, inWords} from "./blanks.js";
+import {fill, inWords, plain} from "./blanks.js";
 import {number} from "./canvas.js";
-import {copyButton, plain} from "./copy.js";
+import {copyButton} from "./copy.js";
 import {elbowPicture} from "./elbow_picture.js";
 import {element, waiting} from "./elements.js";
 import {geometryOf, ik, singularities} from "./geometries.js";

@@ -56,8 +56,7 @@ export function placeLabels(g, labels, room, handles = []) {
     const wide = g.measureText(text).width + 4,
       found = placed(label, labels, dots, wide, room);
     // the letter of an axis below rings would seem to belong to another
-    const ringed = tip && (on(at) === text || (on(at) && on(tip)));
-    if (!found || ringed) continue;
+    if (!found || (tip && (on(at) === text || (on(at) && on(tip))))) continue;
     const [x, y, led] = found;
     if (led) haloed(g, led, color, 1);
     if (color === colors.alarm) {
@@ -101,7 +100,9 @@ function placed(
     }
     for (const gap of tip ? TIPS : near ? CLOSE : GAPS)
       for (let k = 0; k < TURNS; k++) {
-        const [c, s] = [Math.cos, Math.sin].map(part => part((-2 * Math.PI * k) / TURNS)),
+        const angle = (-2 * Math.PI * k) / TURNS,
+          c = Math.cos(angle),
+          s = Math.sin(angle),
           u = between(px + c * (gap + wide / 2) - wide / 2, left, width - wide),
           v = between(py + s * (gap + HIGH / 2) - HIGH / 2, top, height - HIGH);
         if (tip) {

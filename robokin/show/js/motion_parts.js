@@ -1,12 +1,12 @@
 // The common parts of both views of a blended motion: its state, clock, curves, sliders and
 // sentences.
 
-import {fill} from "./blanks.js";
+import {fill, plain} from "./blanks.js";
 import {motions} from "./blended.js";
 import {number} from "./canvas.js";
 import {clockRow, runningClock} from "./clock.js";
 import {scrubbing} from "./controls.js";
-import {copyButton, plain} from "./copy.js";
+import {copyButton} from "./copy.js";
 import {curvesView} from "./curves.js";
 import {element} from "./elements.js";
 import {exists, nowhere} from "./rows.js";

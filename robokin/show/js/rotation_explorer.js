@@ -1,10 +1,10 @@
 // The rotation explorer: the reader rotates a vector v about an axis n, and sees the product q v
 // and the rotated vector q v q*. All text comes from Python (explorer_page.py: RotationPage).
 
-import {fill} from "./blanks.js";
+import {fill, plain} from "./blanks.js";
 import {number} from "./canvas.js";
 import {orbit} from "./controls.js";
-import {copyButton, plain} from "./copy.js";
+import {copyButton} from "./copy.js";
 import {element, waiting} from "./elements.js";
 import {alongCurve} from "./handles.js";
 import {cross, plus} from "./kinematics.js";

@@ -4,9 +4,9 @@
 
 import {number} from "./canvas.js";
 import {clockRow, runningClock} from "./clock.js";
-import {copyButton, plain} from "./copy.js";
+import {copyButton} from "./copy.js";
 import {element, waiting} from "./elements.js";
-import {fill} from "./blanks.js";
+import {fill, plain} from "./blanks.js";
 import {inScreen} from "./handles.js";
 import {plus} from "./kinematics.js";
 import {kernelOf, joinArrays} from "./live.js";

@@ -1,6 +1,6 @@
 // Rotations as roll, pitch and yaw, and values as Python code.
 
-import {plain} from "./copy.js";
+import {plain} from "./blanks.js";
 import {product} from "./rotations.js";
 
 /** @import {PageUnit, Unit} from "./page.js" */
