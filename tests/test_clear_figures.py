@@ -4,11 +4,12 @@ import numpy as np
 import pytest
 from matplotlib.figure import Figure
 from matplotlib.text import Text
+from test_clear_letters import aside
 
 from robokin import IRB140, deg
 from robokin.course import book
 from robokin.show import Sketch, plot_postures
-from robokin.show.palette import GRID
+from robokin.show.palette import AXIS_COLORS, GRID
 
 
 def struck(figure):
@@ -77,6 +78,27 @@ def test_first_and_last_posture_are_named_where_they_differ(joint):
     if joint in (3, 4):
         for name in ("first", "last"):
             assert np.linalg.norm(centres[name] - letters, axis=-1).min() < 120
+
+
+@pytest.mark.parametrize("swing", [-60, -30, 45, 60, 90])
+def test_letters_are_at_the_axes_of_the_last_posture(swing):
+    """The frame of the first posture has no letters, and is as near."""
+    q = np.zeros((41, 6))
+    q[:, 4] = np.linspace(0, swing, 41) * deg
+    figure = plot_postures(IRB140, q)
+    figure.canvas.draw()
+    [ax] = figure.axes
+    for letter, color in zip("xyz", AXIS_COLORS, strict=True):
+        first, last = (
+            line.get_transform().transform(np.stack(line.get_data(), axis=-1))
+            for line in ax.lines
+            if line.get_color() == color
+        )
+        for text in ax.texts:
+            if text.get_text() == letter:
+                place = Text.get_window_extent(text).get_points().mean(axis=0)
+                assert aside(place, last) < min(36, aside(place, first)), letter
+                assert (place - last[1]) @ (last[1] - last[0]) > 0, letter
 
 
 def test_two_postures_with_one_flange_are_told_apart():

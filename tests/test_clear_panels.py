@@ -138,6 +138,20 @@ def test_no_faint_curves_among_those_of_many_arms(page, tmp_path, arms, faint):
     assert told == (faint > 0)
 
 
+@pytest.mark.parametrize("width", [390, 352, 336, 324])
+def test_limit_is_named_also_where_there_is_little_room(page, tmp_path, width):
+    """Three limits; the curves of joints 5 and 6 run along that of joint 5."""
+    t = np.linspace(0, 20, 201)
+    times = [0, 5, 10, 15, 20]
+    angles = [[15, 55, 75, 65, 55], [40, 8, -25, -30, -40], [60, 40, 0, -12, -30]]
+    angles += [[-180, -160, -137, -121, -97], [112, 110, 98, 78, 54], [165, 130, 118, 120, 103]]
+    q = np.stack([np.interp(t, times, each) for each in angles], axis=-1) * deg
+    shown(page, animate(IRB140, t, q), tmp_path, width, "none", "none", RECORD)
+    texts = [w["text"] for w in page.evaluate("canvasWords()[1].words") if w["size"] == 10]
+    named = {text.split()[0] for text in texts if re.match(r"q\d .*°$", text)}
+    assert named == {"q3", "q4", "q5"}
+
+
 @pytest.mark.parametrize("size", [-302.1, -180.5, -20, 179, 302.1, 360])
 def test_jump_by_more_than_half_a_turn_has_its_short_way(size):
     """A wrapped angle may jump by almost a whole turn where the arm moves little."""

@@ -8,6 +8,7 @@ import numpy as np
 import pytest
 import test_clear_pictures
 from canvas_words import LINES, RECORD
+from test_clear_letters import aside
 from test_clear_pictures import PHONE, along, shown
 
 from robokin import IRB140, ITMO6R, PUMA560, SCARA, ScaraPose, deg, follow, mm, scara_arm, two_link
@@ -89,6 +90,19 @@ def test_text_of_a_limit_is_next_to_its_own_side_of_the_zone(
         assert not any(line["width"] == 1 and line["color"] == word["color"] for line in lines)
 
 
+@pytest.mark.parametrize("view", [explored, circles])
+def test_dashes_of_one_elbow_do_not_fill_the_gaps_of_the_other(page, tmp_path, view):
+    """Parts of both circles of q2 coincide."""
+    shown(page, view(), tmp_path, 900, "none", "none", LINES)
+    lines = page.evaluate("document.querySelector('canvas').lines")
+    orange, paper = (PAGE[name][0].lower() for name in ("joint2", "paper"))
+    sides = [k for k, line in enumerate(lines) if line["color"] == orange and line["dash"]]
+    assert len(sides) == 2
+    for k in sides:
+        below = lines[k - 1]
+        assert below["color"] == paper and below["points"] == lines[k]["points"]
+
+
 def distance(box, lines):
     """The distance of a box from the nearest of several lines."""
     drawn = np.concatenate([along(line) for line in lines])
@@ -104,7 +118,11 @@ def test_length_is_next_to_its_own_line_or_has_a_line_to_it(page, tmp_path, arm,
     [lines, words] = page.evaluate(
         "[document.querySelector('canvas').lines, canvasWords()[0].words]"
     )
-    [[joint2, corner, point]] = [line["points"] for line in lines if line["dash"] == [5, 4]]
+    [[place, [joint2, corner, point]]] = [
+        (k, line["points"]) for k, line in enumerate(lines) if line["dash"] == [5, 4]
+    ]
+    links = [k for k, line in enumerate(lines) if line["color"] == PAGE["link"][0].lower()]
+    assert all(k < place for k in links), "a link covers u or w"
     named = {"d": [joint2, point], "u": [joint2, corner], "w": [corner, point]}
     others = []
     for line in lines:
@@ -130,7 +148,7 @@ def test_length_is_next_to_its_own_line_or_has_a_line_to_it(page, tmp_path, arm,
         far += [distance(found[length], [{"points": line}]) for line in rest]
         led = any(
             distance(found[length], [{"points": leader}]) < 6
-            and min(distance([*tip, 0, 0], [{"points": own}]) for tip in leader) < 8
+            and aside(np.array(leader[1]), np.array(own)) < 1
             for leader in leaders
         )
         assert led or far[0] == min(far) and far[0] < 30, (length, far)

@@ -217,18 +217,22 @@ def test_pose_explorer_reports_a_solved_task(browser, tmp_path):
     page = browser.new_page(viewport={"width": 900, "height": 800})
     page.goto(path.as_uri())
     says = page.locator(".rk-says")
-    expect(says).to_contain_text("The arm reaches this pose in 8 ways. The exercise asks for 4.")
+    expect(says).to_contain_text(
+        "Without its limits, the arm reaches this pose in 8 ways. The exercise asks for 4."
+    )
     turned = {"x, mm": 70, "y, mm": 0, "z, mm": 297, "roll, °": 180, "pitch, °": 0, "yaw, °": 180}
     for name, value in turned.items():
         field = page.get_by_label(f"{name}, exactly")
         field.fill(str(value))
         field.press("Enter")
     expect(says).to_contain_text(
-        "The arm reaches this pose in 4 ways. Do all of them have front −1?"
+        "Without its limits, the arm reaches this pose in 4 ways. Do all of them have front −1?"
     )
     page.get_by_label("x, mm, exactly").fill("370")
     page.get_by_label("x, mm, exactly").press("Enter")
-    expect(says).to_contain_text("The arm reaches this pose in 8 ways. The exercise asks for 4.")
+    expect(says).to_contain_text(
+        "Without its limits, the arm reaches this pose in 8 ways. The exercise asks for 4."
+    )
     page.close()
 
 

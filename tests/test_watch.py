@@ -304,6 +304,12 @@ def test_row_stays_the_same_through_a_singularity_and_is_missing_without_an_inve
     [runs] = animate(IRB140, np.linspace(0, 1, 101), q).data["arms"][0]["rows"]
     assert [words[:5] for _, words in runs] == ["row 1", "row 0"]
     assert runs[0][0] == 0 and runs[1][0] in (50, 51)
+    swing = np.outer(np.sin(np.linspace(0, 2 * np.pi, 101)), [0, 0, 0, 0.1, 0.4, 0])
+    for q in (swing, -swing):
+        [runs] = animate(IRB140, np.linspace(0, 1, 101), q).data["arms"][0]["rows"]
+        names = [words for _, words in runs]
+        assert names[0] == names[-1] == "rows 0, 1: +1 +1 ±1", "no sign at the ends is determined"
+        assert {words[:5] for words in names[1:-1]} == {"row 0", "row 1"} and len(names) == 4
     levers = animate(three_lever(1.0), CLOCK, np.full((601, 3), 1.0) + CLOCK[:, None] / 20)
     assert levers.data["arms"][0]["rows"] is None
     plain = animate(SCARA, CLOCK, np.full((601, 4), 0.1) + CLOCK[:, None] / 100)

@@ -80,10 +80,13 @@ def closest(arm: Arm, q: Floats, via: Floats, unit: float) -> list[list[float] |
     return found
 
 
-def flags(arm: ClosedFormArm, k: int) -> str:
-    """Return the name of branch k: its number and its flags, such as "2: +1 −1 +1"."""
-    flags = " ".join(f"{flag:+d}" for flag in arm.branches[k]).replace("-", "\N{MINUS SIGN}")
-    return f"{k}: {flags}"
+def flags(arm: ClosedFormArm, *rows: int) -> str:
+    """Return the name of a branch: its number and its flags, such as "2: +1 −1 +1". Of several
+    branches, it has all numbers, and ±1 for a flag in which they differ.
+    """
+    signs = zip(*(arm.branches[k] for k in rows), strict=True)
+    words = [f"{each[0]:+d}" if len({*each}) == 1 else "±1" for each in signs]
+    return f"{', '.join(map(str, rows))}: {' '.join(words)}".replace("-", "\N{MINUS SIGN}")
 
 
 def rows(arm: Arm, q: Floats) -> list[list[tuple[int, str]]] | None:
@@ -91,7 +94,8 @@ def rows(arm: Arm, q: Floats) -> list[list[tuple[int, str]]] | None:
     belong, as pairs of the first sample and the name of the row. Return None if the arm has no
     inverse or only one row.
 
-    Where rows coincide at a singularity, a posture keeps the row of the previous sample.
+    Where rows coincide at a singularity, a posture keeps the row of the previous sample; where the
+    motion begins or ends there, it has the names of all these rows.
     """
     if not isinstance(arm, ClosedFormArm) or len(arm.branches) < 2:
         return None
@@ -101,11 +105,16 @@ def rows(arm: Arm, q: Floats) -> list[list[tuple[int, str]]] | None:
     found = []
     for motion in belongs:
         runs: list[tuple[int, str]] = []
-        row = None
-        for i, here in enumerate(motion):
-            if here.any() and (row is None or not here[row]):
-                row = int(here.argmax())
-                runs.append((i, f"row {flags(arm, row)}"))
+        clear = np.flatnonzero(motion.sum(axis=-1) == 1)
+        among: list[int] = []
+        for i in np.flatnonzero(motion.any(axis=-1)).tolist():
+            here = np.flatnonzero(motion[i]).tolist()
+            inner = len(clear) and clear[0] <= i <= clear[-1]
+            if inner:
+                here = [row for row in among if row in here][:1] or here[:1]
+            if here != among:
+                among = here
+                runs.append((i, f"row{'s' * (len(here) > 1)} {flags(arm, *here)}"))
         found.append(runs)
     return found
 

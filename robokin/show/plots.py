@@ -196,11 +196,11 @@ def plot_postures(
     apart = np.linalg.norm(ends[1] - ends[0], axis=-1)
     half = apart[: len(arm.links) + 1]
     where = (half if half.max() > 1e-3 * size else apart).argmax()
+    scene.arm(arm, q[last], "last" if moves or len(exists) <= 2 else "first")
+    scene.triad(tool[last], length=0.07 * size, width=3.2, letters=True)
     if (moves or len(exists) == 2) and apart[where] > 1e-3 * size:
         scene.label("first", ends[0, where], SOFT)
         scene.label("last", ends[1, where])
-    scene.arm(arm, q[last], "last" if moves or len(exists) <= 2 else "first")
-    scene.triad(tool[last], length=0.07 * size, width=3.2, letters=True)
     for name, pose in targets.items():
         scene.triad(pose, name, width=1.4)
     scene.finish(fit=(9, 6.2))

@@ -63,8 +63,8 @@ class Scene:
         self.ground = 0.0 if self.flat or "floor" not in like else like["floor"][0][2]
         # points below which the floor must extend
         self.corners: list[Floats] = [np.zeros((1, 3))]
-        # for each label: its text, place, colour and size
-        self.labels: list[tuple[str, Floats, str, float]] = []
+        # for each label: its text, place, colour and size, and the direction in which it is
+        self.labels: list[tuple[str, Floats, str, float, Floats]] = []
         # centre and half the size, in pixels, of each placed label, in the order of `labels`
         self.boxes: list[tuple[Floats, Floats]] = []
         # projected lines and their widths, which labels avoid
@@ -179,7 +179,7 @@ class Scene:
             if name and i == at:
                 self.label(f"{letter} {name}", tip, axis_color)
             elif letters and np.linalg.norm(along) > 0.3 * length:
-                self.label(letter, tip, axis_color, 8)
+                self.label(letter, tip, axis_color, 8, along)
         self.line(
             [pose.translation],
             linestyle="none",
@@ -223,14 +223,23 @@ class Scene:
             self.corners.append(corners)
             self.ax.add_patch(Polygon(self.project(corners), **style))
 
-    def label(self, words: str, point: Floats, color: str = INK, size: float = 9.5) -> None:
-        """Add text next to a point (3,); `place_labels` finds a free place for it."""
+    def label(
+        self,
+        words: str,
+        point: Floats,
+        color: str = INK,
+        size: float = 9.5,
+        away: ArrayLike = (0, 0),
+    ) -> None:
+        """Add text next to a point (3,), in the half plane `away` (2,) from it; `place_labels`
+        finds a free place for it.
+        """
         where = self.project(point)
         if not any(
             words == other and np.allclose(where, there, rtol=0, atol=1e-6)
             for other, there, *_ in self.labels
         ):
-            self.labels.append((words, where, color, size))
+            self.labels.append((words, where, color, size, np.asarray(away)))
 
     def finish(self, footnote: str = "", fit: tuple[float, float] | None = None) -> None:
         """Draw floor, scale and labels, and set the limits. With `fit`, a (width, height) in
@@ -287,7 +296,7 @@ class Scene:
         way = np.stack([np.cos(angle), np.sin(angle)], axis=-1)
         ring = np.repeat(np.arange(4), 12)
         gap = np.array([5, 14, 26, 40])[ring, None]
-        for words, point, color, size in new:
+        for words, point, color, size, away in new:
             taken, sizes = np.reshape([*self.boxes], (-1, 2, 2)).swapaxes(0, 1)
             artist = self.ax.text(
                 0,
@@ -311,6 +320,12 @@ class Scene:
             )
             out = np.any((places - half < frame.min) | (places + half > frame.max), axis=-1)
             cost = 5 * inside + 200 * hits + 1000 * out + 6 * ring + (1 - way[:, 0])
+            cost += 50 * (way @ away < 0.3 * np.linalg.norm(away))
+            # a letter nearer to the axis of another frame would name that one
+            for axis in [np.array(x.get_xydata()) for x in self.ax.lines if x.get_color() == color]:
+                if away.any() and np.any(axis[-1] != point):
+                    off = np.linalg.norm(places[:, None] - dense(to_pixels(axis)), axis=-1)
+                    cost += 50 * (off.min(axis=-1) < np.linalg.norm(places - here, axis=-1))
             best = places[(cost + (1 - way[:, 1])).argmin()]
             artist.set_position(to_data.transform(best))
             self.boxes.append((best, half))

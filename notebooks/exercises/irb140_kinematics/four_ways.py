@@ -13,10 +13,11 @@ from .shared import L0, L1, L4, Floats, Z
 
 COUNT = 1
 CLOSE = 30 * mm  # the triangle does not close at smaller distances
+WAYS = "Without its limits, the arm reaches this pose in {count} ways."
 GOAL = {
     "wanted": 4,
-    "holds": "The arm reaches this pose in {count} ways. Do all of them have front −1?",
-    "open": "The arm reaches this pose in {count} ways. The exercise asks for {wanted}.",
+    "holds": WAYS + " Do all of them have front −1?",
+    "open": WAYS + " The exercise asks for {wanted}.",
 }
 
 

@@ -1,7 +1,18 @@
 // Draws an arm in a scene: its links and joints, its path, and its shadow on the floor.
 
 import {movedTo} from "./camera.js";
-import {WORD, clear, colors, ink, jointColor, polygon, shape, spot, stroke} from "./canvas.js";
+import {
+  WORD,
+  clear,
+  colors,
+  haloed,
+  ink,
+  jointColor,
+  polygon,
+  shape,
+  spot,
+  stroke,
+} from "./canvas.js";
 import {distance, dot, frames, origin, plus, polyline, turned} from "./kinematics.js";
 import {triad} from "./triad.js";
 
@@ -92,20 +103,13 @@ export function drawStood(one) {
   g.globalAlpha = one.faded ? 0.3 : 1;
   if (one.framed) for (const frame of one.all) triad(g, cam, frame, 0.08 * scene.size, 1.8);
   g.globalAlpha = 1;
-  if (tail.length > 1) {
-    stroke(
-      g,
-      tail.map(p => p && to(p)),
-      clear(colors.paper, 0.85),
-      4.5,
-    );
-    stroke(
+  if (tail.length > 1)
+    haloed(
       g,
       tail.map(p => p && to(p)),
       colors.path,
       2.2,
     );
-  }
   one.over?.(g, cam);
 }
 
@@ -242,12 +246,10 @@ function limb(g, p, q, width, rod) {
   const [edge, body, light] = rod
     ? [colors.rodEdge, colors.rod, colors.rodShine]
     : [colors.edge, colors.link, colors.shine];
-  /** @type {(p: Pixel) => Pixel} */
-  const up = ([x, y]) => [x - 0.16 * width, y - 0.2 * width];
-  stroke(g, [p, q], clear(colors.paper, 0.9), width + 3);
-  stroke(g, [p, q], edge, width);
+  haloed(g, [p, q], edge, width);
   stroke(g, [p, q], body, width - 2);
-  stroke(g, [up(p), up(q)], light, 0.22 * width);
+  const up = [p, q].map(/** @returns {Pixel} */ ([x, y]) => [x - 0.16 * width, y - 0.2 * width]);
+  stroke(g, up, light, 0.22 * width);
 }
 
 /**

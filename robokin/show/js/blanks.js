@@ -25,3 +25,10 @@ export const oneDecimal = x => ((4 * x) % 1 === 0 ? rint(10 * x) / 10 : x).toFix
  * @param {number} x  metres
  */
 export const inWords = x => (x < 10 ? `${oneDecimal(x / 1e-3)} mm` : `${oneDecimal(x)} m`);
+
+/**
+ * A number as Python code.
+ * @param {number} x
+ * @param {number} decimals
+ */
+export const plain = (x, decimals) => String(+x.toFixed(decimals));

@@ -3,6 +3,7 @@
 /** @typedef {[number, number]} Pixel  CSS pixels from the upper left corner of a canvas */
 /** @typedef {number[]} Point  x, y, z in metres, base coordinates */
 /** @typedef {[number, number, number, number]} Box  left, top, width, height in CSS pixels */
+/** @typedef {[...box: Box, mark?: string]} Ring  the box of a handle, and the letter on it */
 /** @typedef {[color: string, width: number, dash?: number[]]} Look  the style of a line */
 /**
  * @typedef {[fill: string, edge?: string, width?: number]} Filling  the fill and edge of a shape
@@ -155,6 +156,15 @@ export function stroke(g, points, color, width, dash = []) {
 }
 
 /**
+ * Draws a line that is seen on any ground.
+ * @type {(g: Context, points: (?Pixel)[], color: string, width: number) => void}
+ */
+export function haloed(g, points, color, width) {
+  stroke(g, points, colors.paper, width + 2);
+  stroke(g, points, color, width);
+}
+
+/**
  * @type {(g: Context, x: number, top: number, bottom: number, ...look: Look) => void}
  */
 export const upright = (g, x, top, bottom, ...look) =>
@@ -209,7 +219,7 @@ export function polygon(g, points, ...look) {
 }
 
 /** @param {string | CanvasGradient} fill */
-const isSolid = fill => typeof fill !== "string" || fill.length < 8;
+const isSolid = fill => !(/** @type {string} */ (fill).length > 7);
 
 /**
  * Draws a disc.
@@ -225,7 +235,7 @@ export function spot(g, [x, y], radius, fill, edge = colors.paper, width = 1.5) 
   shape(g, () => g.arc(x, y, radius, 0, 2 * Math.PI), fill, edge, width);
 }
 
-/** The ink of words in a box. @type {(box: Box) => Ink} */
+/** The ink of words in a box. @type {(box: Ring) => Ink} */
 export const wordInk = ([x, y, w, h]) => [
   [
     [x + h / 2, y + h / 2],
@@ -273,7 +283,7 @@ export const number = (x, decimals) =>
 /**
  * Whether a box [left, top, width, height] overlaps one of several others.
  * @param {Box} box
- * @param {Box[]} boxes
+ * @param {Ring[]} boxes
  */
 export const hit = ([x, y, w, h], boxes) =>
   boxes.some(([ox, oy, ow, oh]) => x < ox + ow && ox < x + w && y < oy + oh && oy < y + h);

@@ -4,7 +4,7 @@
 
 import {approachOf, jointsOf, motionOf, nearestAt, postureAt} from "./approach.js";
 import {drawApproach} from "./approach_curve.js";
-import {fill, inWords} from "./blanks.js";
+import {fill, inWords, plain} from "./blanks.js";
 import {clear, colors, number, spot, stroke} from "./canvas.js";
 import {scrubbing} from "./controls.js";
 import {copyButton} from "./copy.js";
@@ -15,7 +15,7 @@ import {least, outside} from "./levers.js";
 import {point} from "./mark.js";
 import {clamp} from "./rows.js";
 import {slider, stageOf, wordButton} from "./stage.js";
-import {degrees, plain} from "./turns.js";
+import {degrees} from "./turns.js";
 
 /** @import {ClearancePage} from "./page.js" */
 /** @import {Least, Motion} from "./approach.js" */

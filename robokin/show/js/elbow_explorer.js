@@ -4,7 +4,7 @@
 
 import {wrapped} from "./angles.js";
 import {excess, representative, within} from "./branches.js";
-import {fill, inWords} from "./blanks.js";
+import {fill, inWords, plain} from "./blanks.js";
 import {number} from "./canvas.js";
 import {copyButton} from "./copy.js";
 import {elbowPicture} from "./elbow_picture.js";
@@ -14,10 +14,10 @@ import {inScreen} from "./handles.js";
 import {clamp, distance2, exists} from "./rows.js";
 import {frameOf, slider} from "./stage.js";
 import {table} from "./table.js";
-import {degrees, plain} from "./turns.js";
+import {degrees} from "./turns.js";
 
 /** @import {ElbowInverse, ElbowPage} from "./page.js" */
-/** @import {Box} from "./canvas.js" */
+/** @import {Ring} from "./canvas.js" */
 /** @import {Camera} from "./camera.js" */
 /** @import {Handle} from "./handles.js" */
 /** @import {ArmOf, ClosedFormArm} from "./kinematics.js" */
@@ -39,7 +39,7 @@ import {degrees, plain} from "./turns.js";
 /** @typedef {{r: number, z: number, elbow: number}} State  `elbow`: the chosen row */
 /**
  * What the picture shows.
- * @typedef {State & Triangles & {alt: string, handles: (camera: Camera) => Box[]}} Seen
+ * @typedef {State & Triangles & {alt: string, handles: (camera: Camera) => Ring[]}} Seen
  */
 
 /**

@@ -124,25 +124,19 @@ function awayFrom(a, b, place) {
 }
 
 /**
- * Draws the column, the circles on which an elbow lies, u and w, and the other elbow.
+ * Draws the column, the circles on which an elbow lies, and the other elbow.
  * @param {Pen} pen
  * @param {ElbowExplorer} data
  * @param {Seen} now
  * @param {Places} places
  */
-function drawBelow(
-  {g, cam: {to, scale}},
-  {arm},
-  {elbow},
-  {foot, top, joint2, point, corner, elbows},
-) {
+function drawBelow({g, cam: {to, scale}}, {arm}, {elbow}, {foot, top, joint2, point, elbows}) {
   const {upper, fore} = arm.geometry.elbow;
   stroke(g, [foot, top, joint2], clear(colors.ghost, 0.35), 6);
   /** @type {(centre: Pixel, radius: number) => Pixel[]} */
   const ring = (centre, radius) =>
     Array.from({length: 121}, (_, i) => on(centre, (i * Math.PI) / 60, radius * scale));
   stroke(g, [...ring(joint2, upper), null, ...ring(point, fore)], colors.rim, 1.2, [1.5, 4]);
-  stroke(g, [joint2, corner, point], colors.soft, 1.2, [5, 4]);
   if (!elbows.length) return;
   const other = elbows[1 - elbow];
   stroke(g, [joint2, other, point], clear(colors.ghost, 0.7), 3, [8, 7]);
@@ -150,15 +144,18 @@ function drawBelow(
 }
 
 /**
- * Draws d and the angles or, if the point is out of reach, the gap between the circles.
+ * Draws u, w, d and the angles or, if the point is out of reach, the gap between the circles.
  * @param {Context} g
  * @param {ElbowExplorer} data
  * @param {Seen} now
  * @param {Places} places
  */
 function drawAbove(g, data, now, places) {
-  const {joint2, point, elbows} = places,
+  const {joint2, point, corner, elbows} = places,
     bent = now.elbows[now.elbow];
+  // above the links, since a line leads to it from its name
+  stroke(g, [joint2, corner, point], colors.paper, 3);
+  stroke(g, [joint2, corner, point], colors.soft, 1.2, [5, 4]);
   stroke(g, [joint2, point], colors.path, 2);
   if (bent) {
     const {alpha, gamma} = bent,

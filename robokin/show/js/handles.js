@@ -5,7 +5,7 @@ import {cross, dot, plus} from "./kinematics.js";
 import {handleChooser, large} from "./chooser.js";
 import {element, control} from "./elements.js";
 
-/** @import {Box, Color, Pixel, Point} from "./canvas.js" */
+/** @import {Color, Pixel, Point, Ring} from "./canvas.js" */
 /** @import {Camera} from "./camera.js" */
 
 /**
@@ -87,7 +87,7 @@ export function handleLayer(canvas, camera, hold, changed) {
     /**
      * Moves the handles to their places; call it after every redraw.
      * @param {Camera} [cam]
-     * @returns {Box[]}  the boxes that they cover, in the order of the handles
+     * @returns {Ring[]}  the boxes that they cover, in the order of the handles
      */
     place(cam = camera()) {
       /** @type {Pixel[]} */
@@ -105,9 +105,10 @@ export function handleLayer(canvas, camera, hold, changed) {
         taken.push(placed(handle, cam, handle.id === held ? null : taken, [width, height], big));
       for (const {node, tell} of handles) tell?.(layer, node.matches(":focus"));
       const size = big ? 32 : 26; // as drawn
-      return seen
-        .map(handle => taken[first.indexOf(handle)])
-        .map(([x, y]) => [x - size / 2, y - size / 2, size, size]);
+      return seen.map(handle => {
+        const [x, y] = taken[first.indexOf(handle)];
+        return [x - size / 2, y - size / 2, size, size, handle.mark];
+      });
     },
   };
 }

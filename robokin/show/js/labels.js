@@ -1,9 +1,9 @@
 // Words on a canvas: each label takes the first free place around its point, so that it hides
 // nothing that is drawn there.
 
-import {WORD, colors, font, hit, ink, stroke, wordInk, write} from "./canvas.js";
+import {WORD, colors, font, haloed, hit, ink, wordInk, write} from "./canvas.js";
 
-/** @import {Box, Context, Ink, Pixel} from "./canvas.js" */
+/** @import {Box, Context, Ink, Pixel, Ring} from "./canvas.js" */
 
 /**
  * @typedef {object} Label
@@ -23,7 +23,7 @@ import {WORD, colors, font, hit, ink, stroke, wordInk, write} from "./canvas.js"
 /** @typedef {{x: number, y: number, r: number, heavy: number}} Dot  a part of the ink */
 
 const GAPS = [5, 14, 26, 40, 58, 84], // px between a point and its label
-  TIPS = [5, 10, 15, 20, 25], // the same for a label with `tip`
+  TIPS = [5, 9, 14, 20, 26, 33, 41], // the same for a label with `tip`
   CLOSE = [5, 14], // the same for a label with `near`
   NEAR = 26, // px: the largest gap without a line
   TURNS = 12, // the number of directions
@@ -39,12 +39,14 @@ const GAPS = [5, 14, 26, 40, 58, 84], // px between a point and its label
  * @param {Context} g
  * @param {Label[]} labels
  * @param {Box} room
- * @param {Box[]} [handles]  the boxes of the handles, which no label covers
+ * @param {Ring[]} [handles]  the boxes of the handles, which no label covers
  */
 export function placeLabels(g, labels, room, handles = []) {
   ink.push(...handles.map(wordInk));
   /** @type {Dot[]} */
   const dots = [];
+  /** The letter of a handle at a place. @type {(place: Pixel) => ?string | undefined} */
+  const on = ([x, y]) => handles.find(box => box[4] && hit([x - 4, y - 4, 8, 8], [box]))?.[4];
   let marked = 0; // the number of lines in `ink` whose dots are known
   for (const label of labels) {
     while (marked < ink.length) mark(dots, ink[marked++]);
@@ -53,11 +55,10 @@ export function placeLabels(g, labels, room, handles = []) {
     g.font = font(12, weight);
     const wide = g.measureText(text).width + 4,
       found = placed(label, labels, dots, wide, room);
-    // the letter of an axis below handles would seem to belong to another
-    if (!found || (tip && [at, tip].every(([x, y]) => hit([x - 4, y - 4, 8, 8], handles))))
-      continue;
+    // the letter of an axis below rings would seem to belong to another
+    if (!found || (tip && (on(at) === text || (on(at) && on(tip))))) continue;
     const [x, y, led] = found;
-    if (led) stroke(g, led, color, 1);
+    if (led) haloed(g, led, color, 1);
     if (color === colors.alarm) {
       // else the red ring of a joint would show between two words
       g.fillStyle = colors.paper;
@@ -85,7 +86,8 @@ function placed(
   [left, top, width, height],
 ) {
   const [ax, ay] = away ?? [0.5, -0.5],
-    unled = apart.length ? CLOSE[1] : away ? Infinity : NEAR; // px: the largest gap without a line
+    // px: the largest gap without a line
+    unled = tip || apart.length ? CLOSE[1] : away ? Infinity : NEAR;
   /** @type {?[number, number, ?Pixel[]]} */
   let best = null;
   let least = tip || near ? MOST : Infinity;
@@ -98,7 +100,9 @@ function placed(
     }
     for (const gap of tip ? TIPS : near ? CLOSE : GAPS)
       for (let k = 0; k < TURNS; k++) {
-        const [c, s] = [Math.cos, Math.sin].map(part => part((-2 * Math.PI * k) / TURNS)),
+        const angle = (-2 * Math.PI * k) / TURNS,
+          c = Math.cos(angle),
+          s = Math.sin(angle),
           u = between(px + c * (gap + wide / 2) - wide / 2, left, width - wide),
           v = between(py + s * (gap + HIGH / 2) - HIGH / 2, top, height - HIGH);
         if (tip) {
@@ -116,7 +120,8 @@ function placed(
           if (cost >= least) break;
           if (x > u - r && x < u + wide + r && y > v - r && y < v + HIGH + r) cost += heavy;
         }
-        const led = cost < least && gap > unled ? leader([px, py], u, v, wide) : null;
+        const led =
+          cost < least && gap > unled ? leader([px, py], u, v, wide, along[1] ? 0 : 6) : null;
         if (led && crossed(close, led[0], [px, py])) cost += CROSSED;
         if (cost < least) [best, least] = [[u, v, led], cost];
       }
@@ -125,13 +130,13 @@ function placed(
 }
 
 /**
- * The line to a point from a label whose upper left corner is (u, v). It does not reach the dot at
+ * The line to a point from a label whose upper left corner is (u, v). It ends `gap` pixels before
  * the point.
- * @type {(at: Pixel, u: number, v: number, wide: number) => [Pixel, Pixel]}
+ * @type {(at: Pixel, u: number, v: number, wide: number, gap: number) => [Pixel, Pixel]}
  */
-function leader([px, py], u, v, wide) {
+function leader([px, py], u, v, wide, gap) {
   const [ex, ey] = [between(px, u, wide), between(py, v, HIGH)],
-    share = 6 / Math.hypot(ex - px, ey - py);
+    share = gap / Math.hypot(ex - px, ey - py);
   return [
     [ex, ey],
     [px + share * (ex - px), py + share * (ey - py)],

@@ -5,14 +5,14 @@
 import {alpha_range, family, KEPT, kinks, least, outside, withLevers} from "./levers.js";
 import {drawCosts, total} from "./levers_curve.js";
 import {alphaHandle, pointHandle} from "./levers_handles.js";
-import {fill} from "./blanks.js";
+import {fill, plain} from "./blanks.js";
 import {jointColor, number, shade} from "./canvas.js";
 import {copyButton} from "./copy.js";
 import {frames, origin} from "./kinematics.js";
 import {scrubbing} from "./controls.js";
 import {element, waiting} from "./elements.js";
 import {slider, stageOf, wordButton} from "./stage.js";
-import {degrees, inCode, lengths, plain, radians} from "./turns.js";
+import {degrees, inCode, lengths, radians} from "./turns.js";
 import {point} from "./mark.js";
 
 /** @import {LeversPage} from "./page.js" */

@@ -1,7 +1,7 @@
 // The common parts of both views of a blended motion: its state, clock, curves, sliders and
 // sentences.
 
-import {fill} from "./blanks.js";
+import {fill, plain} from "./blanks.js";
 import {motions} from "./blended.js";
 import {number} from "./canvas.js";
 import {clockRow, runningClock} from "./clock.js";
@@ -11,7 +11,7 @@ import {curvesView} from "./curves.js";
 import {element} from "./elements.js";
 import {exists, nowhere} from "./rows.js";
 import {menu, slider} from "./stage.js";
-import {lengths, plain} from "./turns.js";
+import {lengths} from "./turns.js";
 
 /** @import {MotionPage, PagePose, StartValues} from "./page.js" */
 /** @import {Motion} from "./blended.js" */

@@ -1,11 +1,11 @@
 // The sentences of the motor explorer, and the Python code for a motor and a run.
 
 import {lastOf} from "./bench.js";
-import {fill} from "./blanks.js";
+import {fill, plain} from "./blanks.js";
 import {number} from "./canvas.js";
 import {behind, holdingTorque, startFrequency, startingTorque, stepOf} from "./rotor.js";
 import {table} from "./table.js";
-import {degrees, plain} from "./turns.js";
+import {degrees} from "./turns.js";
 
 /** @import {MotorControl, PageMotors} from "./page.js" */
 /** @import {Bench} from "./bench.js" */

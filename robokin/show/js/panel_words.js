@@ -99,8 +99,9 @@ function noted(g, marks, x, [left, right, top, bottom], cost) {
 }
 
 /**
- * The text of the limits: next to their lines, clear of other text and almost clear of the curves.
- * A limit for which there is no such place has only its band.
+ * The text of the limits: next to their lines, clear of other text and almost clear of the curves;
+ * without the word "limit" where there is room only for the rest. A limit for which there is no
+ * such place has only its band.
  * @param {Context} g
  * @param {Panel} panel
  * @param {Place[]} ys  the height of a value, for each line
@@ -119,20 +120,23 @@ function limitWords(g, panel, ys, [left, right, top, bottom], notes, cost) {
       {unit} = panel.axes[line.axis];
     const value = number(limit, +!Number.isInteger(limit)),
       gap = unit[0] === "\u00B0" ? "" : " ";
-    const text = `q${line.joint + 1} limit ${value}${gap}${unit}`;
-    const w = g.measureText(text).width,
-      taken = [...notes, ...found].map(([, place]) => place);
+    const taken = [...notes, ...found].map(([, place]) => place);
     /** @type {?Box} */
     let best = null;
     let least = MOST;
-    for (const y of side ? [at - 13, at + 2] : [at + 2, at - 13]) {
-      if (y < top + 1 || y + 11 > bottom - 1) continue;
-      const over = cost(y, 11, at);
-      for (let px = left + 5; px + w + 5 < right; px += 6)
-        if (over(px, w) < least && !hit([px - 4, y, w + 8, 11], taken))
-          [best, least] = [[px, y, w, 11], over(px, w)];
+    for (const word of [" limit ", " "]) {
+      if (best) break;
+      const text = `q${line.joint + 1}${word}${value}${gap}${unit}`,
+        w = g.measureText(text).width;
+      for (const y of side ? [at - 13, at + 2] : [at + 2, at - 13]) {
+        if (y < top + 1 || y + 11 > bottom - 1) continue;
+        const over = cost(y, 11, at);
+        for (let px = left + 5; px + w + 5 < right; px += 6)
+          if (over(px, w) < least && !hit([px - 4, y, w + 8, 11], taken))
+            [best, least] = [[px, y, w, 11], over(px, w)];
+      }
+      if (best) found.push([text, best, shade(lineColor(line)), 10]);
     }
-    if (best) found.push([text, best, shade(lineColor(line)), 10]);
   }
   return found;
 }

@@ -1,7 +1,7 @@
 // The rotation explorer: the reader rotates a vector v about an axis n, and sees the product q v
 // and the rotated vector q v q*. All text comes from Python (explorer_page.py: RotationPage).
 
-import {fill} from "./blanks.js";
+import {fill, plain} from "./blanks.js";
 import {number} from "./canvas.js";
 import {orbit} from "./controls.js";
 import {copyButton} from "./copy.js";
@@ -13,16 +13,16 @@ import {product} from "./rotations.js";
 import {clamp} from "./rows.js";
 import {frameOf, slider} from "./stage.js";
 import {table} from "./table.js";
-import {aboutAxis, degrees, lengths, plain, radians} from "./turns.js";
+import {aboutAxis, degrees, lengths, radians} from "./turns.js";
 
 /** @import {RotationPage} from "./page.js" */
-/** @import {Box, Point} from "./canvas.js" */
+/** @import {Point, Ring} from "./canvas.js" */
 /** @import {Camera} from "./camera.js" */
 /** @import {Handle} from "./handles.js" */
 
 /** @typedef {[angle: number, tilt: number]} State  degrees: of the rotation, and from n to v */
 /** @typedef {ReturnType<typeof products>} Products */
-/** @typedef {Products & {alt: string, handles: (cam: Camera) => Box[]}} Seen */
+/** @typedef {Products & {alt: string, handles: (cam: Camera) => Ring[]}} Seen */
 
 const TINY = 1e-9; // radians: angles that differ by less count as equal
 

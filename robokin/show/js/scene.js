@@ -20,7 +20,7 @@ import {placeLabels} from "./labels.js";
 import {compass} from "./triad.js";
 
 /** @import {PageLink, PageScene, PageThing, Unit} from "./page.js" */
-/** @import {Box, Context, Point} from "./canvas.js" */
+/** @import {Box, Context, Point, Ring} from "./canvas.js" */
 /** @import {Camera} from "./camera.js" */
 /** @import {Label} from "./labels.js" */
 /** @import {Now} from "./recordings.js" */
@@ -53,7 +53,7 @@ import {compass} from "./triad.js";
  * @property {Draw} [over]  draws anything else above it
  * @property {(cam: Camera) => Point[]} [around]  points, besides those of the arm, that a growing
  *   scene must show
- * @property {(cam: Camera) => Box[]} [handles]  the boxes of its handles, which no label covers
+ * @property {(cam: Camera) => Ring[]} [handles]  the boxes of its handles, which no label covers
  */
 /** @typedef {ReturnType<typeof surroundings>} Space  the fixed surroundings of a scene */
 /**

@@ -6,7 +6,7 @@ import {number} from "./canvas.js";
 import {clockRow, runningClock} from "./clock.js";
 import {copyButton} from "./copy.js";
 import {element, waiting} from "./elements.js";
-import {fill} from "./blanks.js";
+import {fill, plain} from "./blanks.js";
 import {inScreen} from "./handles.js";
 import {plus} from "./kinematics.js";
 import {kernelOf, joinArrays} from "./live.js";
@@ -14,7 +14,6 @@ import {beside, menu, slider, stageOf, wordButton} from "./stage.js";
 import {table} from "./table.js";
 import {found} from "./own_tour.js";
 import {below, mark} from "./tour_picture.js";
-import {plain} from "./turns.js";
 import {point} from "./mark.js";
 
 /** @import {PageLink, TourPage, With} from "./page.js" */

@@ -1,6 +1,6 @@
 // Draws the axes of a frame, and the directions of the base's axes in a free corner.
 
-import {colors, stroke, write} from "./canvas.js";
+import {colors, haloed, stroke, write} from "./canvas.js";
 import {dot, origin, plus} from "./kinematics.js";
 import {freest} from "./labels.js";
 
@@ -31,8 +31,7 @@ export function triad(g, cam, pose, length, width) {
       [dx, dy] = [tip[0] - from[0], tip[1] - from[1]],
       long = Math.hypot(dx, dy),
       away = /** @type {Pixel} */ ([dx, dy].map(d => (3 * d) / long));
-    stroke(g, [from, tip], colors.paper, width + 2);
-    stroke(g, [from, tip], colors[name], width);
+    haloed(g, [from, tip], colors[name], width);
     if (long <= 0.35 * length * cam.scale) return [];
     return [{text: name, at: tip, color: colors[name], weight: "600", away, tip: from}];
   });

@@ -1,5 +1,6 @@
 // Rotations as roll, pitch and yaw, and values as Python code.
 
+import {plain} from "./blanks.js";
 import {product} from "./rotations.js";
 
 /** @import {PageUnit, Unit} from "./page.js" */
@@ -55,13 +56,6 @@ export function rollPitchYaw(m) {
   if (flat < 1e-9) return [0, pitch, Math.atan2(-m[1], m[5])];
   return [Math.atan2(m[9], m[10]), pitch, Math.atan2(m[4], m[0])];
 }
-
-/**
- * A number as Python code.
- * @param {number} x
- * @param {number} decimals
- */
-export const plain = (x, decimals) => String(+x.toFixed(decimals));
 
 /**
  * Joint values as Python code: "90.0 * deg, ...".

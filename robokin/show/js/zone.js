@@ -17,8 +17,11 @@ export const zone = {
         sides.flatMap(({points}) => points.map(to)),
         clear(colors.ghost, 0.12),
       );
-    for (const {joint, dash, points} of found.flat())
-      stroke(g, points.map(to), joint === null ? colors.soft : jointColor(joint), 2, dash);
+    for (const {joint, dash, points} of found.flat()) {
+      const line = points.map(to);
+      stroke(g, line, colors.paper, 2); // else a line of the other elbow would fill the gaps
+      stroke(g, line, joint === null ? colors.soft : jointColor(joint), 2, dash);
+    }
   },
   /** Names each limit where it is free, and only next to its own sides. */
   above({cam: {to}}, zones, labels) {
