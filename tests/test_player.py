@@ -349,8 +349,8 @@ def test_teeth_of_a_sawtooth_count_as_jumps_in_position_and_not_as_speed():
 @pytest.mark.parametrize(
     "t, words",
     [
-        (T, "greatest values of the 2001 samples, every 0.01 s"),
-        (np.array([0, 0.01, 0.03, 0.04]), "greatest values of the 4 samples, at most 0.02 s apart"),
+        (T, "greatest values of 2001 samples, every 0.01 s"),
+        (np.array([0, 0.01, 0.03, 0.04]), "greatest values of 4 samples, at most 0.02 s apart"),
     ],
 )
 def test_table_states_how_its_maxima_were_sampled(t, words):
@@ -765,7 +765,7 @@ def test_mime_bundle_has_html_and_text(blended):
         f"31.2 °/s (joint 3), smallest distance from the via point 0 to {farthest:g} mm."
     )
     picture = (
-        r'<img alt="IRB-140 in the first and the last posture[^"]*" '
+        r'<img alt="IRB-140 in the first and last posture[^"]*" '
         r'[^>]*src="data:image/png;base64,'
     )
     assert re.search(picture, bundle["text/html"])
@@ -1188,7 +1188,7 @@ def test_page_without_scripts_shows_the_still_picture(browser, blended, tmp_path
     context = browser.new_context(java_script_enabled=False)
     page = context.new_page()
     page.goto((tmp_path / "player.html").as_uri())
-    box = page.get_by_role("img", name="IRB-140 in the first and the last posture").bounding_box()
+    box = page.get_by_role("img", name="IRB-140 in the first and last posture").bounding_box()
     assert box["width"] > 400 and box["height"] > 200
     context.close()
 

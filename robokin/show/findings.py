@@ -51,7 +51,7 @@ def sampled(t: Floats, leaps: bool = False) -> str:
     even = most - least < 1e-3 * most
     step = f"every {tidy(most, 6):.4g} s" if even else f"at most {tidy(most, 6):.4g} s apart"
     rest = ", without the jumps in position" if leaps else ""
-    return f"greatest values of the {len(t)} samples, {step}{rest}"
+    return f"greatest values of {len(t)} samples, {step}{rest}"
 
 
 def closest(arm: Arm, q: Floats, via: Floats, unit: float) -> list[list[float] | None]:
@@ -237,5 +237,5 @@ def summary_and_alt(
             parts.append(f"{label}smallest distance from the via point {ends} {unit['name']}")
     summary = f"Player of {who}: {', '.join(parts)}."
     through = f" past {', '.join(targets)}" if targets else ""
-    alt = f"{who} in the first and the last posture, with the path of the tool{through}. {summary}"
+    alt = f"{who} in the first and last posture, with the tool's path{through}. {summary}"
     return summary, alt

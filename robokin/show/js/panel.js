@@ -169,13 +169,20 @@ function drawGrid({g, x, sides: [left, right, top, bottom]}, [low, step, count],
 function drawScales({g, sides: [left, right, top, bottom]}, {label, axes, lines}, scales) {
   axes.forEach(({scale: [low, step, count, decimals], unit}, k) => {
     const joints = [...new Set(lines.filter(line => line.axis === k).map(({joint}) => joint))];
-    const color = k && joints.length === 1 ? shade(jointColor(joints[0])) : colors.soft,
-      px = k ? right + 6 : left - 6;
+    const color = k && joints.length === 1 ? shade(jointColor(joints[0])) : colors.soft;
     const apart = (bottom - top - 2 * INSET) / (count - 1),
       every = bottom - top < SMALL ? count - 1 : Math.ceil(14 / apart);
     for (let i = 0; i < count; i += every) {
       const value = low + i * step;
-      write(g, number(value, decimals), px, scales[k](value) + 4, color, 11, k ? "left" : "right");
+      write(
+        g,
+        number(value, decimals),
+        k ? right + 6 : left - 6,
+        scales[k](value) + 4,
+        color,
+        11,
+        k ? "left" : "right",
+      );
     }
     if (!k) return;
     g.font = font(12, "600");
@@ -199,15 +206,16 @@ function drawMark({g, sides: [, , top, bottom]}, x) {
   for (const [y, tip] of [
     [top, top + 7],
     [bottom, bottom - 7],
-  ]) {
-    /** @type {Pixel[]} */
-    const corners = [
-      [x - 5, y],
-      [x + 5, y],
-      [x, tip],
-    ];
-    polygon(g, corners, colors.alarm);
-  }
+  ])
+    polygon(
+      g,
+      [
+        [x - 5, y],
+        [x + 5, y],
+        [x, tip],
+      ],
+      colors.alarm,
+    );
 }
 
 /**

@@ -83,7 +83,7 @@ function noted(g, marks, x, [left, right, top, bottom], cost) {
     let best = null;
     let least = MOST;
     for (const words of [text, text.replace(/^.*: /, ""), text.replace(/^.* by /, "")]) {
-      if (!text || best || notes.length > 2) continue;
+      if (!text || best || notes[2]) continue;
       const w = g.measureText(words).width,
         taken = notes.map(([, place]) => place);
       for (let y = top + 5; y + 11 < bottom; y += 6) {
@@ -124,9 +124,8 @@ function limitWords(g, panel, ys, [left, right, top, bottom], notes, cost) {
     /** @type {?Box} */
     let best = null;
     let least = MOST;
-    for (const word of [" limit ", " "]) {
-      if (best) break;
-      const text = `q${line.joint + 1}${word}${value}${gap}${unit}`,
+    for (const word of ["limit ", ""]) {
+      const text = `q${line.joint + 1} ${word}${value}${gap}${unit}`,
         w = g.measureText(text).width;
       for (const y of side ? [at - 13, at + 2] : [at + 2, at - 13]) {
         if (y < top + 1 || y + 11 > bottom - 1) continue;
@@ -135,7 +134,10 @@ function limitWords(g, panel, ys, [left, right, top, bottom], notes, cost) {
           if (over(px, w) < least && !hit([px - 4, y, w + 8, 11], taken))
             [best, least] = [[px, y, w, 11], over(px, w)];
       }
-      if (best) found.push([text, best, shade(lineColor(line)), 10]);
+      if (best) {
+        found.push([text, best, shade(lineColor(line)), 10]);
+        break;
+      }
     }
   }
   return found;

@@ -250,8 +250,8 @@ function armAt(arm, {i, share}) {
  */
 function showAt(panel, {i, share}) {
   for (const line of panel.lines) {
-    const {values, gaps, steps} = line,
-      still = steps || !share || gaps.has(i);
-    line.now = still ? values[i] : values[i] + share * (values[i + 1] - values[i]);
+    const {values, gaps, steps} = line;
+    line.now = values[i];
+    if (share && !steps && !gaps.has(i)) line.now += share * (values[i + 1] - values[i]);
   }
 }
