@@ -23,10 +23,9 @@ import {WORD, colors, font, haloed, hit, ink, wordInk, write} from "./canvas.js"
 /** @typedef {{x: number, y: number, r: number, heavy: number}} Dot  a part of the ink */
 
 const GAPS = [5, 14, 26, 40, 58, 84], // px between a point and its label
-  TIPS = [5, 9, 14, 20, 26, 33, 41], // the same for a label with `tip`
+  TIPS = [5, 9, 14, 20, 30, 42], // the same for a label with `tip`
   CLOSE = [5, 14], // the same for a label with `near`
   NEAR = 26, // px: the largest gap without a line
-  TURNS = 12, // the number of directions
   HIGH = 16, // px: the height of a label
   REACH = 40, // px: the directions of the base, and letters beside them, are this near their centre
   APART = 28, // px: twice the distance of a label from the lines of others
@@ -86,6 +85,7 @@ function placed(
   [left, top, width, height],
 ) {
   const [ax, ay] = away ?? [0.5, -0.5],
+    turns = tip ? 24 : 12, // the number of directions
     // px: the largest gap without a line
     unled = tip || apart.length ? CLOSE[1] : away ? Infinity : NEAR;
   /** @type {?[number, number, ?Pixel[]]} */
@@ -99,8 +99,8 @@ function placed(
       mark(close, [[each], 4 * APART, 0.1]);
     }
     for (const gap of tip ? TIPS : near ? CLOSE : GAPS)
-      for (let k = 0; k < TURNS; k++) {
-        const angle = (-2 * Math.PI * k) / TURNS,
+      for (let k = 0; k < turns; k++) {
+        const angle = (-2 * Math.PI * k) / turns,
           c = Math.cos(angle),
           s = Math.sin(angle),
           u = between(px + c * (gap + wide / 2) - wide / 2, left, width - wide),
@@ -121,7 +121,9 @@ function placed(
           if (x > u - r && x < u + wide + r && y > v - r && y < v + HIGH + r) cost += heavy;
         }
         const led =
-          cost < least && gap > unled ? leader([px, py], u, v, wide, along[1] ? 0 : 6) : null;
+          cost < least && gap > unled
+            ? leader([px, py], u, v, wide, tip || along[1] ? 0 : 6)
+            : null;
         if (led && crossed(close, led[0], [px, py])) cost += CROSSED;
         if (cost < least) [best, least] = [[u, v, led], cost];
       }
