@@ -85,7 +85,7 @@ def test_player_shows_a_belt_of_ones_own(monkeypatch):
     own, gap = [0.35, -0.3, 0.25], 0.17
     (_, clock, motions), named = conveyor_player(0.21, SPREADS, 2, bin_place=own, gap=gap, seed=82)
     start = BEGIN * gap / 0.21
-    (brought,) = named["quantities"].values()
+    brought = named["quantities"]["objects brought"]
     walls = np.array([face for face in named["faces"] if np.ptp(np.array(face)[:, 2])])
     for k, spread in enumerate(SPREADS):
         stream = spaced(200, gap, spread, seed=82)
@@ -105,8 +105,9 @@ def test_arm_in_the_title_has_the_first_curve(drawn):
     _, named = drawn
     assert named["names"] == ["arm 4", "arm 3", "arm 2", "arm 1"] and "arm 4" in named["title"]
     counts = {mark.name: mark.reading for mark in named["things"] if mark.reading}
-    assert counts.pop("missed").rows.shape == (2, 1201, 1)
-    (brought,) = named["quantities"].values()
+    lost = counts.pop("missed").rows
+    brought, past = named["quantities"].values()
+    assert lost.shape == (2, 1201, 1) and lost[..., 0].tolist() == past[0].tolist()
     for name, foot, each in zip(named["names"], named["bases"], brought, strict=True):
         assert foot == pytest.approx([0, int(name[-1]) - 1])
         assert counts[name].rows[..., 0].tolist() == each.tolist()
@@ -120,13 +121,36 @@ def test_title_asks_for_what_the_view_counts(monkeypatch):
     faster = conveyor_player([0.1, 0.2], 0.5, 1)
     assert faster == "Spread 0.5: how many objects does one arm miss?"
     assert conveyor_player([0.1, 0.2], 1, 2) == "Spread 1: how many objects do 2 arms miss?"
-    # two arms miss some, so that is the question, and the curves are in the order of the arms
+    # two arms miss some, so that is the question
     assert conveyor_player(0.2, [0, 1], 2) == "200 mm/s: how many objects do 2 arms miss?"
     monkeypatch.setattr("robokin.show.conveyor.animate", lambda *given, **named: named["names"])
-    assert conveyor_player(0.2, [0, 1], 2) == ["arm 1", "arm 2"]
-    assert conveyor_player(0.2, [0, 0.1], 2) == ["arm 2", "arm 1"]
+    for spread in (1, 0.1):
+        assert conveyor_player(0.2, [0, spread], 2) == ["arm 2", "arm 1"]
+    monkeypatch.setattr(
+        "robokin.show.conveyor.animate", lambda *given, **named: list(named["quantities"])
+    )
+    asked = "objects brought", "objects that passed the arm"
+    assert conveyor_player(0.2, [0, 1], 2) == [*reversed(asked)]
+    assert conveyor_player([0.1, 0.2], 0.5, 2) == [*reversed(asked)]
+    assert conveyor_player(0.2, [0, 0.1], 2) == [*asked]
     # four arms miss some only under "first come"
-    assert conveyor_player(0.2, [0, 1], 4, rules=True)[0] == "arm 4"
+    assert conveyor_player(0.2, [0, 1], 4, rules=True) == [*asked]
+
+
+def test_curves_count_the_objects_that_each_arm_leaves(monkeypatch):
+    """Until they are out of its window; those of the last arm are missed."""
+    monkeypatch.setattr("robokin.show.conveyor.animate", lambda *given, **named: (given, named))
+    (_, clock, _), named = conveyor_player(0.25, SPREADS, 3, rules=True)
+    past = named["quantities"]["objects that passed the arm"]
+    for rule, k in np.ndindex(2, 2):
+        offsets = spaced(200, GAP, SPREADS[k])
+        trips = serve(offsets, 0.25, ALONG, ways_from(), arms=3, pitch=1.0, first_come=rule == 1)
+        for arm in range(3):
+            taken = np.concatenate([each.objects for each in trips[: arm + 1]])
+            out = (np.delete(offsets, taken) + arm + 0.8) / 0.25 - START
+            wanted = [((out > 0) & (out <= t)).sum() for t in clock]
+            assert past[2 - arm][rule, k].tolist() == wanted
+            assert rule == 0 or wanted[-1], "under first come, objects pass all three"
 
 
 @pytest.mark.parametrize("arms", [1, 3])

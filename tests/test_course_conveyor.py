@@ -387,3 +387,42 @@ def test_four_arms_that_serve_in_order_take_what_the_prediction_says():
     assert facts["gets"] == [200, 150, 100, 51] and costs[3] == pytest.approx(c)
     assert facts["missed_by_two"] == 100 and facts["missed_by_three"] == 51
     assert sum(facts["soonest"]) == 200 and facts["least"] == 2
+
+
+@pytest.mark.parametrize("who", ["your name", "Ada", "student 11"])
+def test_numbers_of_another_bin_are_recognised(who):
+    """Of a bin at an end of the window, or of the lab's bin; one wrong number has its own name."""
+    own = variant("conveyor", who)
+    for old, new in (((0.35, 0.45), BIN), (CORNER, (0.3, 0.0)), ((0.15, 0.45), (0.35, 0.45))):
+        right = line(own, old, own["most"])
+        verdict = check("conveyor.1", right | {"bin": list(new)}, who=who)
+        assert verdict.mistake == "the numbers of another bin" and verdict.points < 1
+        x, y = (f"{each:g}".replace("-", "−") for each in old)
+        said = f"The counts and the speed fit the bin [{x}, {y}] instead. You may have changed"
+        assert said in verdict.says[0] and len(verdict.says) == 1
+        verdict = check("conveyor.1", right | {"bin": list(new), SPEED: 5}, who=who)
+        assert not verdict.holds and "another bin" not in verdict.mistake
+    verdict = check("conveyor.1", line(own, BIN, own["most"] + 1), who=who)
+    assert "another bin" not in verdict.mistake
+
+
+def test_too_few_arms_are_one_mistake():
+    """The counts under first come may be those of enough arms."""
+    for who in ("Ada", "Anna Petrova"):
+        own = variant("conveyor", who)
+        right = line(own, CORNER, own["most"])
+        verdict = check("conveyor.1", right | {"arms": right["least"]}, who=who)
+        assert verdict.mistake == "the bound is not enough" and len(verdict.says) == 1
+        follows = line(own, CORNER, right["least"])
+        verdict = check("conveyor.1", follows, who=who)
+        assert verdict.mistake == "the bound is not enough" and len(verdict.says) == 1
+        both = right | {"arms": right["least"], ENDS[0]: right[ENDS[0]] + 1}
+        assert len(check("conveyor.1", both, who=who).says) == 2
+
+
+def test_reply_to_there_and_back_counted_twice_is_correct():
+    _, options, _ = filled(LAB.predictions["p1"])
+    replies = {float(each.text): each for each in options}
+    assert math.ceil(2 * 2 * ways(BIN).min() * 0.25 / 0.15) == 5
+    assert f"{2 * ways(BIN).min():.2f} s already includes the way back." in replies[5].reason
+    assert replies[5].confusion == "you counted there and back twice"

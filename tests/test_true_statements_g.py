@@ -442,9 +442,8 @@ def test_belt_table_shows_one_stream_and_other_streams_need_one_more_arm():
     words = flat("14", "belt-look")
     assert (
         "at all six speeds. At spread 0.5, that is one arm too few at three speeds; at spread 1, "
-        "at five, and" in words
+        'at five (other orders: "More").' in words
     )
-    assert "most other orders of the gaps need even more at 200 and 300 mm/s" in words
     orders, fourth, more = numbers(
         r"The folded cell tries (\d+) orders at 200 and 300 mm/s. At spread 0.5, all need as many "
         r"arms as the table says; at spread 1, (\d+) and (\d+) need more\.",
@@ -493,9 +492,8 @@ def test_belt_arms_take_as_many_objects_as_stated():
 
 def test_four_gaps_with_the_same_mean_need_a_third_arm():
     """Also the clusters to try; equal gaps need only two arms."""
-    words = flat("14", "belt-look")
-    assert "the four above have the same mean, but need three arms." in words
     code = cells("14")["belt-arms"]
+    assert "These four have the same mean, 0.15 m, but need\n# three arms\n" in code
     assert "gaps = [0.05, 0.05, 0.05, 0.45]  # try [0.15, 0.15, 0.15, 0.15], [0.02, " in code
     for gaps, taken in (
         ([0.05, 0.05, 0.05, 0.45], [100, 84, 16]),
@@ -527,7 +525,8 @@ def test_belt_player_shows_the_streams_of_the_table(monkeypatch):
     spreads = [0, 0.2, 0.4, 0.6, 0.8, 1]
     assert "Play these six seconds of a stream of 200 objects." in flat("14", "title")
     (come,) = numbers(
-        r"In every view, the clock starts roughly when the (\d+)th object comes \*in\*\.",
+        r"In every view, the clock starts in the middle of the stream, roughly when the (\d+)th "
+        r"object comes \*in\*\.",
         flat("14", "able"),
     )
     assert f"conveyor_player(v=0.2, spread={spreads}, arms=2)" in cells("14")["opening"]
@@ -538,7 +537,7 @@ def test_belt_player_shows_the_streams_of_the_table(monkeypatch):
     start = 116 * 0.15 / 0.2
     assert start + 6 < 150  # 30 m of objects at 0.2 m/s
     assert all(abs(sum(belt_stream(x, 8) <= 0.2 * start) - come) <= 3 for x in spreads)
-    (brought,), passed = named["quantities"].values(), []
+    brought, passed = named["quantities"]["objects brought"], []
     counts = {thing.name: thing.reading for thing in named["things"] if thing.reading}
     for k, spread in enumerate(spreads):
         left = belt_stream(spread, 8) / 0.2
@@ -551,6 +550,7 @@ def test_belt_player_shows_the_streams_of_the_table(monkeypatch):
         out = np.array(left) + 0.8 / 0.2  # when they leave the second window
         missed = [((start < out) & (out <= start + now)).sum() for now in clock]
         assert counts["missed"].rows[k, :, 0].tolist() == missed
+        assert named["quantities"]["objects that passed the arm"][0][k].tolist() == missed
         passed.append(missed[-1])
     assert "at what spread does the first object pass both arms?" in flat("14", "title")
     assert "<details><summary>Answer</summary> At 0.4. In the whole stream" in flat("14", "able")
@@ -705,12 +705,13 @@ def test_first_joint_decides_the_time_of_one_object():
 
 def test_half_a_window_saves_arms_under_first_come():
     words = flat("14", "belt-look")
-    assert "shorten the window (`ALONG[:81]`;" in words
-    at_in, at_out = (
+    assert "an arm then leaves an object past the middle to the next arm." in words
+    at_in, at_out, at_half = (
         numbers(pattern, words)
         for pattern in (
-            r"`first_come = True`: (\d), (\d) and (\d) arms at 200 mm/s\)",
-            r"the bin where they go out \(`ways_from\(\)\[::-1\]`: (\d), (\d) and (\d)\)",
+            r"`first_come = True` \((\d), (\d) and (\d) arms at 200 mm/s\)",
+            r"the bin where they go out \((\d), (\d) and (\d)\)",
+            r"halve the window \((\d), (\d) and (\d)\)",
         )
     )
     in_turn = ("first_come = False", "first_come = True")
@@ -725,7 +726,7 @@ def test_half_a_window_saves_arms_under_first_come():
             assert takes.sum() == 200
             counts.append((takes > 0).sum())
         assert counts[0] - counts[1] == saved
-        assert [counts[0], counts[2]] == [at_in[k], at_out[k]]
+        assert counts == [at_in[k], at_half[k], at_out[k]]
         arrivals = belt_stream(spread, 8) / 0.2  # the same with our own arm
         for needed, rule in ((at_in[k], in_order), (at_out[k], last_at_far_end)):
             left, count = arrivals, 0
@@ -758,7 +759,7 @@ def test_only_first_come_gives_the_fourth_arm_work(monkeypatch):
     assert named["names"][0] == "arm 4"
     moves = np.ptp(motions[0], axis=2).max(axis=-1)  # of arm 4, by rule and spread
     assert not moves[0].any() and (moves[1] > 0.5).all()
-    (brought,) = named["quantities"].values()
+    brought = named["quantities"]["objects brought"]
     assert not brought[0][0].any()
     for k, spread in enumerate([0, 0.5, 1]):
         left = belt_stream(spread, 8) / 0.2
@@ -773,9 +774,9 @@ def test_only_first_come_gives_the_fourth_arm_work(monkeypatch):
 def test_rules_are_equally_good_with_the_bin_at_the_other_end():
     """A late arm then meets its object nearer to the bin."""
     assert (
-        "Of the objects in reach, the first is met nearest to the bin, so it is also back soonest: "
-        'both rules take the same number of objects, at most two more or fewer than "back soonest" '
-        "takes with the bin at the other end." in flat("14", "belt-row")
+        "Where the objects go out: there a late arm's trip gets shorter, and it takes as many as "
+        'under "back soonest". Under that rule, either end will do: the numbers differ by at most '
+        "two." in flat("14", "belt-row")
     )
     # the window is mirrored instead of the bin: the places are then passed from far to near
     printed = shown("14", "belt-work").splitlines()[-5:]
@@ -786,6 +787,51 @@ def test_rules_are_equally_good_with_the_bin_at_the_other_end():
         assert far[0] == far[1] and abs(far[0] - near[0]) <= 2 and near[0] == max(near)
         told, *counts = numbers(r"(\d+) mm/s +(\d+) +(\d+) +(\d+) +(\d+)$", line)
         assert told == pytest.approx(1000 * v) and counts == near + far
+
+
+def test_another_arm_has_the_time_that_the_comment_states():
+    code = cells("14")["belt-code"]
+    assert (
+        "# another arm: c halves if the speed limit doubles; longer links do not change c, because"
+        "\n# joint 1 still turns farthest, and as far as before\nlimit = SPEED  # try 2 * SPEED\n"
+        "links = LINKS  # try (600 * mm, 500 * mm)\n" in code
+    )
+    for change, c in (
+        (("limit = SPEED ", "limit = 2 * SPEED "), WAYS.min()),
+        (("links = LINKS ", "links = (600 * mm, 500 * mm) "), 2 * WAYS.min()),
+    ):
+        with contextlib.redirect_stdout(io.StringIO()):
+            made = run_cells("14", "belt-code", changed=[change])
+        assert made["c"] == pytest.approx(c)
+    # our own arm with longer links
+    stand = joints_of([0.15, -0.45, 0.25], 0.6, 0.5)
+    places = [[0.6, y, 0.05] for y in np.linspace(-0.4, 0.4, 161)]
+    turns = np.abs([joints_of(place, 0.6, 0.5) - stand for place in places])
+    assert (turns.argmax(axis=-1) == 0).all()
+    assert 15 / 8 * turns.max(axis=-1) / 2 == pytest.approx(WAYS)
+
+
+def test_rule_of_the_shortest_trip_takes_fewer_objects():
+    """The arm waits for objects that it can meet at the best point."""
+    words, code = flat("14", "belt-row"), cells("14")["belt-work"]
+    few, many = numbers(
+        r"\*\*try\*\* the shortest trip, `score = one_way\[place\]`: the arm takes (\d+) objects, "
+        r"not (\d+), because it waits at the best point",
+        words,
+    )
+    assert "score = back  # try one_way[place]\n" in code
+    with contextlib.redirect_stdout(io.StringIO()):
+        change = ("score = back ", "score = one_way[place] ")
+        made = run_cells("14", "belt-work", changed=[change])
+        picked, _ = made["work"](made["uneven"], 0.15)
+    # the next object that can still be met at the first place, which is the best one
+    arrivals, free, taken = belt_stream(0.5, 8) / 0.15, 0.0, 0
+    for arrival in arrivals:
+        if arrival >= free + WAYS[0]:
+            free, taken = arrival + WAYS[0], taken + 1
+    assert WAYS.argmin() == 0 and many == 200 - len(one_arm(arrivals, 0.15)[1])
+    places = np.array([place for _, _, place in picked])
+    assert len(picked) == few < many and (places[:-2] == 0).all() and taken <= few <= taken + 2
 
 
 def test_changing_only_alpha_to_plus_90_mirrors_the_arm_in_the_floor():

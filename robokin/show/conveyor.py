@@ -61,10 +61,11 @@ def conveyor_player(
 
     The clock starts when about the 116th object reaches the first window. Since then, the numbers
     above the arms and the curves count the objects brought to the bins, and "missed" those that
-    have left the last window; such an object has a dot. A strip along the belt marks each window.
-    An arrow shows where the belt moves. If the slider changes the spread, and several arms miss
-    nothing by the first rule, the title asks about the last arm: its curve is the first one, with
-    the strongest line. Raises ValueError if a number is outside these ranges.
+    have left the last window; such an object has a dot. For several arms, curves also count the
+    objects that have left the window of each arm: the last arm's are missed. Its curves come first
+    and have the strongest line. A strip along the belt marks each window. An arrow shows where the
+    belt moves. If the slider changes the spread, and several arms miss nothing by the first rule,
+    the title asks what the last arm brings. Raises ValueError if a number is outside these ranges.
     """
     speeds, shares = _belts(v, spread)
     count, mean = whole(arms, "arms", 1, BUSIEST), length(gap, "gap")
@@ -89,25 +90,33 @@ def conveyor_player(
         tools = [machine.fk(one).translation for one in q]
         held = [tool + [*foot, -HANGS] for tool, foot in zip(tools, feet, strict=True)]
         objects = _objects(stream, speed, trips, held, times, end)
-        gone = np.delete(np.arange(OBJECTS), np.concatenate([each.objects for each in trips]))
-        out = (stream[gone] + end - ALONG[0]) / speed  # when they leave the last window
-        lost = np.where(times[:, None] > out[:, None, None], objects[gone], np.nan)
+        left, outs = np.arange(OBJECTS), []
+        for each, foot in zip(trips, feet, strict=True):
+            left = left[~np.isin(left, each.objects)]
+            # when the objects that this arm and those before it leave are out of its window
+            outs.append((stream[left] + foot[1] + ALONG[-1] - ALONG[0]) / speed)
+        lost = np.where(times[:, None] > outs[-1][:, None, None], objects[left], np.nan)
         motions.append(q)
         places.append(_seen(objects))
         passed.append(_seen(lost))
-        done = [(times[:, None] >= at).sum(axis=-1) for at in (*(k.backs for k in trips), out)]
+        done = [(times[:, None] >= at).sum(axis=-1) for at in (*(k.backs for k in trips), *outs)]
         counts.append([each - each[0] for each in done])
-    *brought, missed = (one.reshape(*lead, SAMPLES) for one in np.stack(counts, axis=1))
+    sums = [one.reshape(*lead, SAMPLES) for one in np.stack(counts, axis=1)]
+    brought, past = sums[:count], sums[count:]
+    missed = past[-1]
     moves = [one.reshape(*lead, SAMPLES, -1) for one in np.stack(motions, axis=1)]
     balls, dots = (
         [lane.reshape(*lead, SAMPLES, 3) for lane in _lanes(rows)] for rows in (places, passed)
     )
-    one_arm = {"objects brought": brought[0], "objects missed": missed}
-    if speeds.ndim:
-        one_arm = dict(reversed(one_arm.items()))  # the first one has the large panel
-    # whether the title asks about the last arm, which is then the first: it has the strongest curve
+    # whether the title asks what the last arm brings
     last = count > 1 and not speeds.ndim and not missed[(0,) * (len(words) > 1)].any()
-    order = slice(None, None, -1 if last else 1)
+    title = _title(speeds, shares, count, last)
+    order = slice(None, None, -1)  # the last arm is the first, so that it has the strongest curves
+    curves = {"objects brought": brought[order], "objects that passed the arm": past[order]}
+    if count == 1:
+        curves = {"objects brought": brought[0], "objects missed": missed}
+    if title.endswith("miss?"):
+        curves = dict(reversed(curves.items()))  # the first one has the large panel
     return animate(
         [machine] * count,
         clock,
@@ -121,8 +130,8 @@ def conveyor_player(
         faces=_belt(feet) + _boxes(feet, place),
         things=_labels(feet, brought, missed),
         joints=[],
-        quantities={"objects brought": brought[order]} if count > 1 else one_arm,
-        title=_title(speeds, shares, count, last),
+        quantities=curves,
+        title=title,
         view=VIEW,
     )
 

@@ -1,7 +1,8 @@
 """Exercise 1: a student's own belt, and the mistakes in its bin and in the number of its arms."""
 
 from collections.abc import Mapping, Sequence
-from functools import cache, partial
+from functools import cache
+from itertools import product
 from math import ceil, floor
 from typing import Any
 
@@ -11,42 +12,21 @@ from robokin import mm
 from robokin.course.exercises import in_words
 from robokin.course.told import floats, one_number
 from robokin.course.variants import Numbers, dice
-from robokin.jobs.conveyor import BIN, ways_from
+from robokin.jobs.conveyor import BIN
 
 from .shared import COUNT as OBJECTS
-from .shared import Floats, taken
+from .shared import STEP, at_speed, is_last, missed, none_missed, ways
 
 COUNT = 7
 SPEED_KEY = "one_arm_speed"
 KEYS = ("bin", "least", "missed", "arms", SPEED_KEY, "first_come_in", "first_come_out")
 LOW, HIGH = np.array([[150, -450], [350, 450]]) * mm  # where the bin may stand: x and y
-HEIGHT = 250 * mm
 CORNER = (350 * mm, -450 * mm)  # the least time of one object
 MOST_ARMS = 12
-STEP = 5  # mm/s
 Fault = tuple[str, str]
 # the bin, the bound, what so few arms miss, the arms, the speed up to which one arm misses nothing,
 # and what the arms miss under "first come" with the bin at each end of the window
 Line = tuple[tuple[float, float], int, int, int, int, tuple[int, int]]
-
-
-@cache
-def ways(place: tuple[float, float]) -> Floats:
-    """The time of one way from a bin to each place of the window."""
-    return ways_from([*place, HEIGHT])
-
-
-def missed(
-    numbers: Mapping[str, Any], place: tuple[float, float], arms: int, *, first_come: bool = False
-) -> list[int]:
-    """How many objects of each stream these arms miss."""
-    v, gap, spread = (float(numbers[name]) for name in ("v", "gap", "spread"))
-    times, take = ways(place), partial(taken, gap=gap, arms=arms, first_come=first_come)
-    return [OBJECTS - take(v, spread, times, seed=seed) for seed in numbers["seeds"]]
-
-
-def none_missed(numbers: Mapping[str, Any], place: tuple[float, float], arms: int) -> bool:
-    return not any(missed(numbers, place, arms))
 
 
 def needed(numbers: Mapping[str, Any], place: tuple[float, float]) -> int:
@@ -73,27 +53,6 @@ def given(who: Any) -> Numbers:
             break
     units = {"v": ("mm/s", mm), "gap": ("mm", mm), "most": ("arms", 1.0)}
     return Numbers(values | {"most": most}, units)
-
-
-def is_last(
-    numbers: Mapping[str, Any],
-    place: tuple[float, float],
-    v: int,
-    arms: int = 1,
-    *,
-    first_come: bool = False,
-) -> bool:
-    """Whether these arms miss nothing at v mm/s, but something at the next step."""
-    now, then = (
-        any(missed(at_speed(numbers, each), place, arms, first_come=first_come))
-        for each in (v, v + STEP)
-    )
-    return then and not now
-
-
-def at_speed(numbers: Mapping[str, Any], v: int) -> dict[str, Any]:
-    """The same belt at another speed, in mm/s."""
-    return dict(numbers) | {"v": v * mm}
 
 
 def form(answer: Any, numbers: Any) -> Line:
@@ -159,7 +118,11 @@ def faults(line: Line, numbers: Any) -> list[Fault]:
             some = f"{lost[k]} object{'s' * (lost[k] > 1)} of the stream with seed"
             says = f"With this bin, {many} miss{'es' * (arms == 1)} {some} {numbers['seeds'][k]}."
             found.append((name, says))
-        if fault := first_come_slips(numbers, place, served, arms, told_first):
+        # a student with too few arms may have counted with enough of them
+        enough = next((n for n in range(arms, MOST_ARMS) if none_missed(numbers, place, n)), arms)
+        if told_first != first_come_missed(numbers, place, enough) and (
+            fault := first_come_slips(numbers, place, served, arms, told_first)
+        ):
             found.append(fault)
     if fault := speed_slips(numbers, place, arms, speed):
         found.append(fault)
@@ -171,7 +134,29 @@ def faults(line: Line, numbers: Any) -> list[Fault]:
         if none_missed(numbers, place, most):
             says = "With this bin, fewer arms already miss none: try count_missed with fewer arms."
         found.append(("more arms than allowed", says))
+    if len(found) > 1 and (other := other_bin(line, numbers)):
+        says = f"The counts and the speed fit the bin [{other[0]:g}, {other[1]:g}] instead. "
+        says += "You may have changed the bin and not the numbers."
+        return [("the numbers of another bin", says.replace("-", "−"))] * len(found)
     return found
+
+
+def other_bin(line: Line, numbers: Any) -> tuple[float, float] | None:
+    """A bin at an end of the window, or the lab's, that these numbers fit instead."""
+    place, least, told, arms, speed, told_first = line
+    if not 1 <= arms <= MOST_ARMS:
+        return None
+    for x, y in product((place[0], LOW[0], HIGH[0]), (LOW[1], HIGH[1])):
+        other = float(x), float(y)
+        if (
+            np.abs(np.subtract(other, place)).max() > mm
+            and least == bounds(other, numbers)["the bound"]
+            and told == sum(missed(numbers, other, least))
+            and is_last(numbers, other, speed)
+            and told_first == first_come_missed(numbers, other, arms)
+        ):
+            return other
+    return None
 
 
 def speed_slips(
@@ -238,6 +223,14 @@ def first_come_slips(
     ]
     name, says = slip(told[k], slips, "another number under first come")
     return name, f"{KEYS[k - 2]}: {says}"
+
+
+def first_come_missed(
+    numbers: Mapping[str, Any], place: tuple[float, float], arms: int
+) -> tuple[int, int]:
+    """What so many arms miss under "first come" with the bin at each end."""
+    near, far = (sum(missed(numbers, end, arms, first_come=True)) for end in ends(place))
+    return near, far
 
 
 def ends(place: tuple[float, float]) -> list[tuple[float, float]]:

@@ -37,6 +37,8 @@ def p2_view() -> Any:
         name = "first come" if first_come else "back soonest"
         ax.text(208, np.median(ALONG[trips.places]) / mm, name, color=color, va="center")
     ax.set(xlabel="time, s", ylabel="position along the belt, mm", xlim=(0, 265), ylim=(-430, 430))
+    ax.set(xticks=range(0, 201, 50), yticks=range(-400, 401, 200))
+    ax.set_yticklabels(["in, bin: −400", "−200", "0", "200", "out: 400"])
     ax.set_title(f"{facts['soon']} objects near the bin, or {facts['first']} far from it")
     fig.tight_layout()
     return fig

@@ -29,6 +29,7 @@ def p1() -> dict[str, Any]:
         "load": load,
         "inverse": 1 / load,
         "mixed": load / mm,
+        "twice": ceil(2 * load),
         "up": ceil(load),
         "down": floor(load),
         "right": "rounded up",
