@@ -553,7 +553,9 @@ def test_answers_to_predictions_agree_with_other_methods():
     turns = abs(IRB140.ik(RIGHT)[ROW] - IRB140.ik(LEFT)[ROW])
     least, line = (turns / IRB140.speed_limits).max(), 20 * (speeds / IRB140.speed_limits).max()
     question = " ".join(filled(LAB.predictions["p2"])[0].split())
-    told = f"Less than {line:.2f} s, but no less than PTP: the joints have to turn as far."
+    told = (
+        f"Less than {line:.2f} s, but no less than PTP: the joints have to turn as far as before."
+    )
     assert _right("p2") == told and least < 0.6 * line
     assert f"took {line:.2f} s; in PTP, it took {least:.2f} s" in question
 

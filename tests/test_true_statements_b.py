@@ -158,7 +158,7 @@ def inside(place):
 
 def test_rows_are_usable_where_the_first_view_says():
     one, other = said("07", "title", r"in (\w+) ways, but only (\w+) are inside")
-    (straight,) = said("07", "count", r"Straight ahead, (\w+) rows are usable")
+    (straight,) = said("07", "count", r"At y = 0, (\w+) rows are usable")
     assert re.search(r"y_target = (\S+)", cells("07")["eight-words"])[1] == "0"
     assert "[550 * mm, 0 * mm, 800 * mm]" in cells("07")["opening"]
     fits, reach = inside([550, 0, 800])
@@ -167,7 +167,7 @@ def test_rows_are_usable_where_the_first_view_says():
     (average,) = said("07", "count-look", r"The average is about ([\d.]+)\. ")
     assert average == round(content("puma560_branches").module("predictions")["p4"]()["mean"], 1)
     low, high, *behind = said(
-        "07", "able", r"From y = (\S+) to (\S+) mm, and from (\S+) to (\S+) mm\. Straight ahead"
+        "07", "able", r"From y = (\S+) to (\S+) mm, and from (\S+) to (\S+) mm\. At y = 0"
     )
     told = "joint 1 is past its limit in rows 4 to 7, and joint 4 in rows 3 and 7."
     assert told in cells("07")["able"]

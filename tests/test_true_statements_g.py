@@ -589,7 +589,7 @@ def test_each_rule_misses_none_up_to_the_stated_belt_speed(monkeypatch):
     """In the six seconds of the view and in the whole stream."""
     none, at, many = numbers(
         r"Both miss none up to (\d+) mm/s, here and in the whole stream\. At (\d+) mm/s, "
-        r'"back soonest" misses one object here and five of all 200, but "first come" three '
+        r'"back soonest" misses one object here and five of all 200; "first come" misses three '
         r"and (\d+)\.",
         flat("14", "belt-speed-look"),
     )
@@ -647,7 +647,7 @@ def test_first_come_is_never_worse_for_one_arm_that_must_miss_none():
 def test_first_come_misses_far_more_a_little_above_its_limit():
     load, least, most, few, many = numbers(
         r"at 100 mm/s and spread 0\.5, where \$c\\,v/g\$ is only (\S+), it misses (\d+) to (\d+) "
-        r'objects, and "back soonest" (\d+) to (\d+)\.',
+        r'objects\. Under "back soonest", it misses (\d+) to (\d+)\.',
         flat("14", "belt-curve-look"),
     )
     assert load == pytest.approx(2 * WAYS.min() * 0.1 / 0.15, abs=0.005) and load < 1

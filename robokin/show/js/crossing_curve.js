@@ -94,8 +94,8 @@ const tickOf = (unit, base) => value => {
 };
 
 /**
- * Writes the names of both elbows beside their curves on the right, where they cover nothing, each
- * apart from the other curve.
+ * Writes the names of both elbows beside their curves, where they cover nothing, each apart from
+ * the other curve.
  * @param {Context} g
  * @param {string[]} names
  * @param {Tracks[]} tracks
@@ -111,8 +111,8 @@ function nameCurves(g, names, tracks, x, y, room) {
     ),
     middle = [0.5, 0.4, 0.6, 0.3, 0.7];
   if (!tracks[1]) return;
-  const labels = curves.map(([, own], k) => {
-    const along = middle.map(share => own[Math.floor(share * own.length)]),
+  const labels = curves.map((parts, k) => {
+    const along = parts.flatMap(own => middle.map(share => own[Math.floor(share * own.length)])),
       apart = curves[1 - k].flat(),
       [, other] = curves[1 - k];
     /** @type {Label} */

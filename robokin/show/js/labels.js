@@ -25,7 +25,7 @@ import {WORD, colors, font, haloed, hit, ink, wordInk, write} from "./canvas.js"
 const GAPS = [5, 14, 26, 40, 58, 84], // px between a point and its label
   TIPS = [5, 9, 14, 20, 30, 42], // the same for a label with `tip`
   CLOSE = [5, 14], // the same for a label with `near`
-  NEAR = 26, // px: the largest gap without a line
+  NEAR = 20, // px: the largest gap without a line
   HIGH = 16, // px: the height of a label
   REACH = 40, // px: the directions of the base, and letters beside them, are this near their centre
   APART = 28, // px: twice the distance of a label from the lines of others
