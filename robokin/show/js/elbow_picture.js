@@ -223,7 +223,7 @@ function labelsOf(data, now, places, wide) {
   const own = [label(words.take, point, colors.ink, "600"), ...(wide ? [joint] : [])];
   /** @type {(name: string, x: number) => string} */
   const length = (name, x) =>
-    wide ? `${name} ${number(x / unit.size, controls[0].decimals)}` : name;
+    wide ? `${name} ${number(x / unit.size, controls[0].decimals)} ${unit.name}` : name;
   /** @type {(name: string, x: number) => string} */
   const angle = (name, x) => (wide ? `${name} ${number(degrees(x), 1)}\u00B0` : name);
   /** @type {Named[]} */
