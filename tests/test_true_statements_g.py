@@ -705,7 +705,7 @@ def test_first_joint_decides_the_time_of_one_object():
 
 def test_half_a_window_saves_arms_under_first_come():
     words = flat("14", "belt-look")
-    assert "an arm then leaves an object past the middle to the next arm." in words
+    assert "an arm then leaves objects past the middle to the next." in words
     at_in, at_out, at_half = (
         numbers(pattern, words)
         for pattern in (

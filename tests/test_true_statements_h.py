@@ -310,7 +310,7 @@ def test_arm_with_equal_links_can_dip_below_the_floor_from_the_origin():
 
 def test_at_the_goal_within_overlooks_joints_1_2_4_and_6():
     """Followed on random lines, these end outside their limits although another value fits."""
-    told = "If you check only the goal, `within` can overlook limits of joints 1, 2, 4 and 6, but"
+    told = "If you check only the goal, `within` can overlook limits of joints 1, 2, 4 and 6."
     assert told in flat("07", "choose-rule")
     low, high = PUMA560.limits.T[..., None]
     rng, far = np.random.default_rng(1), np.hypot(431.8 + np.hypot(431.8, 20.3), 150.05) * mm
