@@ -336,7 +336,7 @@ def test_half_the_duration_and_half_the_blend_cost_the_stated_accelerations():
     assert told[0.05, 20.0] / before == pytest.approx(share, abs=0.05)
     assert (before, told[0.05, 20.0]) == pytest.approx((least, most), abs=0.05)
     # why the factor of joint 3 is larger than that of the tool
-    assert "The tool's acceleration only doubles, but nearer to via, the arm is stretched" in text
+    assert "The tool's acceleration only doubles, but nearer to *via*, the arm is stretched" in text
     corner = blend(g["start"], g["via"], g["goal"], np.array([0.1, 0.05]), 0.5)
     q = IRB140.ik(corner)[:, 1]
     wrist = corner.translation - 65 * mm * corner.rotation.as_matrix()[..., 2]
@@ -465,7 +465,7 @@ def test_answers_to_the_tasks_of_ones_own_are_true():
     a, c = ends[1] + 0.2 * (ends[0] - ends[1]), ends[1] + 0.2 * (ends[2] - ends[1])
     q = (1 - y) ** 2 * a + 2 * y * (1 - y) * ends[1] + y**2 * c
     gaps = np.linalg.norm(IRB140.fk(q).translation - g["via"].translation, axis=-1) / mm
-    told = number(r"with a blend of 0.1, it passes (\d+) mm from via", text)
+    told = number(r"with a blend of 0.1, it passes (\d+) mm from \*via\*", text)
     assert gaps.min() == pytest.approx(told, abs=0.5)
 
 
@@ -485,7 +485,7 @@ def test_sharp_corner_and_quintic_corner_of_lab_03_are_as_stated():
     assert "the weights are $1, 5, 10, 10, 5, 1$, so each side has the weight" in text
     assert r"$(1 + 5 \cdot 0.6 + 10 \cdot 0.2)/32 = 3/16$, compared with $1/4$ in" in text
     assert (
-        "the middle of the quintic is only 3/4 as far from via, and the tool's greatest "
+        "the middle of the quintic is only 3/4 as far from *via*, and the tool's greatest "
         "acceleration is 1.5" in text
     )
     weights, away = np.array([1, 5, 10, 10, 5, 1]) / 32, np.array([1, 0.6, 0.2, 0.2, 0.6, 1])
@@ -515,7 +515,8 @@ def test_the_first_view_shows_how_near_the_path_can_pass():
     near, least, on_grid = map(
         float,
         re.search(
-            r"</summary>\s+(\S+) mm, with a blend of (\S+); with the ring, (\S+) mm\.\s+</details>",
+            r"</summary>\s+(\S+) mm, with a blend of (\d\S+)\. The ring reaches (\S+) mm\.\s+"
+            r"</details>",
             cells["able"],
         ).groups(),
     )
