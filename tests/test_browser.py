@@ -240,8 +240,11 @@ def test_shift_enter_and_ctrl_s_work_from_a_control_as_from_a_cell(jupyter, page
         "() => [...document.querySelectorAll('.jp-Cell')].findIndex(cell => "
         "cell.matches('.jp-mod-active'))"
     )
-    view, unsaved = page.locator(PLAYER).first, page.locator(".jp-mod-dirty")
+    # by its id: while the cell makes its view again, the first view is that of another cell
+    name = page.locator(PLAYER).first.get_attribute("data-player")
+    view, unsaved = page.locator(f"[data-player='{name}']"), page.locator(".jp-mod-dirty")
     for control in ("[data-handle]", "button"):
+        view.wait_for(state="attached")
         awake(page)
         view.scroll_into_view_if_needed()
         node = view.locator(control).locator("visible=true").first
@@ -263,7 +266,6 @@ def test_shift_enter_and_ctrl_s_work_from_a_control_as_from_a_cell(jupyter, page
             page,
         )
         page.locator("[data-old]").wait_for(state="detached")  # the cell makes its view again
-        view.wait_for(state="attached")
     assert page.errors == []
 
 

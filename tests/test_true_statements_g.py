@@ -493,7 +493,7 @@ def test_belt_arms_take_as_many_objects_as_stated():
 def test_four_gaps_with_the_same_mean_need_a_third_arm():
     """Also the clusters to try; equal gaps need only two arms."""
     code = cells("14")["belt-arms"]
-    assert "These four have the same mean, 0.15 m, but need\n# three arms\n" in code
+    assert "repeated: these four have the same mean, 0.15 m, but need three arms\n" in code
     assert "gaps = [0.05, 0.05, 0.05, 0.45]  # try [0.15, 0.15, 0.15, 0.15], [0.02, " in code
     for gaps, taken in (
         ([0.05, 0.05, 0.05, 0.45], [100, 84, 16]),
@@ -776,10 +776,10 @@ def test_rules_are_equally_good_with_the_bin_at_the_other_end():
     assert (
         "Where the objects go out: there a late arm's trip gets shorter, and it takes as many as "
         'under "back soonest". Under that rule, either end will do: the numbers differ by at most '
-        "two." in flat("14", "belt-row")
+        "two." in flat("14", "belt-bins-look")
     )
     # the window is mirrored instead of the bin: the places are then passed from far to near
-    printed = shown("14", "belt-work").splitlines()[-5:]
+    printed = shown("14", "belt-bins").splitlines()[-5:]
     for v, line in zip((0.1, 0.15, 0.2, 0.25, 0.3), printed, strict=True):
         arrivals = belt_stream(0.5, 8) / v
         near = [200 - len(rule(arrivals, v)[1]) for rule in (one_arm, in_order)]
