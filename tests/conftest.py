@@ -317,7 +317,7 @@ class JupyterLab:
 
 def awake(page):
     """Scroll to every visible view and wait until it has started, since a view starts only near the
-    viewport; then scroll back.
+    viewport; then scroll back and wait until all are drawn.
     """
     page.evaluate(
         """async () => {
@@ -329,6 +329,7 @@ def awake(page):
             await new Promise(requestAnimationFrame);
           }
           scrollTo(x, y);
+          await new Promise(done => requestAnimationFrame(() => requestAnimationFrame(done)));
         }"""
     )
 

@@ -67,7 +67,7 @@ def test_size_of_a_jump_is_at_its_line_even_without_room_for_words(page, tmp_pat
     )
     page.goto((tmp_path / "view.html").as_uri())
     awake(page)
-    page.wait_for_function("canvasWords().length > 0")
+    page.wait_for_function("canvasWords()[0]?.words.length > 0")
     texts = [word["text"] for word in page.evaluate("canvasWords()[0].words")]
     near = np.array([10 - 2e-6, 10 - 1e-6, 10, 10 + 1e-6])
     before = follow(SCARA, SCARA.ik(blend(*stations, 0, near / 20)), SCARA.branch(+1))[:, 2]

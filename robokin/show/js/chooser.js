@@ -2,12 +2,13 @@
 
 import {control, element} from "./elements.js";
 
+const finger = matchMedia("screen and ((pointer: coarse) or (max-width: 699px))");
+
 /**
  * Whether handles and controls are large enough for a finger, which paper does not need. The style
  * sheets have the same rule.
  */
-export const large = () =>
-  matchMedia("screen and ((pointer: coarse) or (max-width: 699px))").matches;
+export const large = () => finger.matches;
 
 const ROOM = 520; // px: a narrower scene has no room for many large handles
 const FEW = 4; // the number of handles for which every scene has room

@@ -79,10 +79,10 @@ function squared(vectors) {
         const c = 1 / Math.sqrt(1 + t * t),
           s = c * t;
         for (const rows of [a, turns])
-          [rows[i], rows[j]] = [
-            rows[i].map((x, k) => c * x - s * rows[j][k]),
-            rows[j].map((y, k) => s * rows[i][k] + c * y),
-          ];
+          for (let k = 0; k < rows[i].length; k++) {
+            const [x, y] = [rows[i][k], rows[j][k]];
+            [rows[i][k], rows[j][k]] = [c * x - s * y, s * x + c * y];
+          }
       }
   }
   return {vectors: a, lengths: a.map(vector => Math.sqrt(inner(vector, vector))), turns};

@@ -50,12 +50,16 @@ export function placeLabels(g, labels, room, handles = []) {
   for (const label of labels) {
     while (marked < ink.length) mark(dots, ink[marked++]);
     const {text, color, weight, at, tip} = label;
-    if (labels.find(one => one.text + one.at === text + at) !== label) continue;
+    if (
+      labels.find(one => one.text + one.at === text + at) !== label ||
+      // the letter of an axis below rings would seem to belong to another
+      (tip && (on(at) === text || (on(at) && on(tip))))
+    )
+      continue;
     g.font = font(12, weight);
     const wide = g.measureText(text).width + 4,
       found = placed(label, labels, dots, wide, room);
-    // the letter of an axis below rings would seem to belong to another
-    if (!found || (tip && (on(at) === text || (on(at) && on(tip))))) continue;
+    if (!found) continue;
     const [x, y, led] = found;
     if (led) haloed(g, led, color, 1);
     if (color === colors.alarm) {

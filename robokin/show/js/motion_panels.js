@@ -19,7 +19,7 @@ import {scale} from "./ticks.js";
  */
 export function panelOf({arm, panels, units}, {gaps, jumps}, rows, order, now, opening = null) {
   /** @type {(rows: number[][]) => Float64Array[]} */
-  const shown = rows => units.map((u, j) => Float64Array.from(rows, row => row[j] / u.size));
+  const shown = rows => units.map((u, j) => Float64Array.from(rows.map(row => row[j] / u.size)));
   const curves = shown(rows),
     before = opening && shown(opening.rows);
   const kinds = [false, true].filter(shifts => arm.prismatic.includes(shifts));

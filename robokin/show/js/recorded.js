@@ -123,6 +123,9 @@ export function leaps(q, t, prismatic, {least, few}) {
  * @param {number} most
  */
 function isOutside(speeds, i, left, right, most) {
+  // most speeds are near one beside them: this is decided without the search below
+  if (Math.abs(speeds[i] - speeds[i - left]) <= most) return false;
+  if (Math.abs(speeds[i] - speeds[i + right]) <= most) return false;
   const neighbours = [
     [i - left, -1],
     [i + right, 1],
