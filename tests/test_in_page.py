@@ -94,6 +94,7 @@ class Lab:
     def open(self, address):
         self.page.goto(address)
         self.page.locator(".rk-bar").first.wait_for()
+        awake(self.page)  # a view that starts between press and release moves the button
 
     def cell(self, name):
         """The place of the cell with this id in the notebook."""
