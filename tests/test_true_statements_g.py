@@ -709,8 +709,8 @@ def test_half_a_window_saves_arms_under_first_come():
     at_in, at_out, at_half = (
         numbers(pattern, words)
         for pattern in (
-            r"`first_come = True` \((\d), (\d) and (\d) arms at 200 mm/s\)",
-            r"the bin where they go out \((\d), (\d) and (\d)\)",
+            r"`first_come = True` \(in the row of 200 mm/s: (\d), (\d) and (\d)\)",
+            r"the bin where objects go out \((\d), (\d) and (\d)\)",
             r"halve the window \((\d), (\d) and (\d)\)",
         )
     )
