@@ -3,7 +3,7 @@
 # JupyterLab at 1366 x 768 with its file browser open shows 647 px of a notebook, 914 px wide.
 SCREEN = {"width": 1366, "height": 768}
 MOST = {
-    "rk-wide": 640,
+    "rk-wide": 600,
     "rk-several": 600,
     "rk-figure": 640,
 }  # px for several arms in one scene, and side by side; for joint curves

@@ -170,7 +170,7 @@ function sized({scene, curves}, inSpace, count) {
   const width = scene.clientWidth,
     whole = scene.offsetTop !== curves.offsetTop;
   if (!width) return;
-  const most = width > 640 ? 230 : count > 1 ? 420 : 320;
+  const most = width > 640 ? 222 : count > 1 ? 420 : 320;
   scene.style.height = whole
     ? `${Math.round(Math.min(most, Math.max(190, inSpace.height(count, width))))}px`
     : "";
